@@ -88,7 +88,7 @@ class Search {
   std::string missing_;
 };
 
-/// Until enough is recorded. \return why it ended before that, empty: it did not
+/// Records until the limit is reached. \return reason for an earlier end, empty: none
 std::string record(JackSession& session,
                    const std::vector<std::string>& sources,
                    Semaphore& wake,

@@ -7,8 +7,8 @@
 
 namespace ergotic::audio {
 
-/// Lets callbacks through while it is open. Once `close` has returned nobody is inside, whatever
-/// the library that calls back still does: it may call on during and after its own shutdown.
+/// Lets callbacks through while it is open. After `close` has returned no callback is inside, even
+/// if the library still calls: it may do so during and after its own shutdown.
 class Gate {
  public:
   void open() noexcept { open_ = true; }

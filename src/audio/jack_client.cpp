@@ -106,7 +106,7 @@ void JackHost::Impl::supervise() {
   session.reset();
 }
 
-/// One look at the server. What throws here ends the session; the next look tries again.
+/// Looks at the server once. An exception ends the session; the next look tries again.
 void JackHost::Impl::step() {
   const bool dropped = drop.exchange(false);
   if (!session) {

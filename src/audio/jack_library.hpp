@@ -5,7 +5,7 @@
 #include <functional>
 #include <string>
 
-/// What libjack keeps once per process.
+/// Access to the state that libjack keeps once per process.
 namespace ergotic::audio::jack_library {
 
 /// Keeps libjack's messages off the terminal. Thread: any
@@ -25,7 +25,7 @@ bool isStuck();
 /// may then be torn down by jack_port_set_latency_range (seen with 0.3.65). Thread: any
 bool isOfPipeWire();
 
-/// JACK's clock minus CLOCK_MONOTONIC, ns; 0 if they agree as far as can be told. Thread: any
+/// JACK's clock minus CLOCK_MONOTONIC, ns; 0 within the accuracy of measurement. Thread: any
 std::int64_t clockOffsetNs();
 
 }  // namespace ergotic::audio::jack_library

@@ -31,7 +31,7 @@ constexpr std::size_t kMidiMessages = 256;
   throw DeviceError("JACK: " + what + (reason.empty() ? "" : ": " + reason));
 }
 
-/// Those that were given, else numbered ones.
+/// Returns the given names, or numbered ones if there are none.
 std::vector<std::string> portNames(const std::vector<std::string>& given,
                                    int count,
                                    const std::string& prefix) {
@@ -44,7 +44,7 @@ std::vector<std::string> portNames(const std::vector<std::string>& given,
 
 }  // namespace
 
-/// What callbacks touch. It outlives the session if libjack does not come back from a close.
+/// State that callbacks use. It outlives the session if libjack does not return from a close.
 struct JackSession::Core {
   jack_client_t* client = nullptr;
   std::shared_ptr<Semaphore> wake;
@@ -203,8 +203,8 @@ struct JackSession::Core {
     core.wake->post();
   }
 
-  /// What arrives at our inputs (or leaves from our outputs) is our latency older (younger) at the
-  /// other side; with a terminal it begins and ends here.
+  /// Declares latencies. Signals at our inputs (outputs) are older (younger) by our latency at the
+  /// other side; with a terminal they begin and end here.
   static void onLatency(jack_latency_callback_mode_t mode, void* self) {
     auto& core = *static_cast<Core*>(self);
     if (!core.has_ports) {
@@ -308,9 +308,9 @@ JackSession::~JackSession() {
   jack_library::callPatiently([core = core_] { jack_client_close(core->client); });
 }
 
-/// A server believes a client before it has it in its graph: wires to one that is only about to be
-/// activated let a synchronous server wait for it, for 20 s, and pass over its latencies. Therefore
-/// nobody sees the ports before.
+/// Activates the client before its ports are visible. A server accepts connections to a client
+/// before the client is in its graph: connected to one that is only about to be activated, a
+/// synchronous server waits for it, for 20 s, and ignores its latencies.
 void JackSession::activate(const JackConfig& config, rt::AudioProcessor& processor) {
   core_->processor = &processor;
   core_->latency_frames = config.latency_frames;

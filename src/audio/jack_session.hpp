@@ -13,13 +13,13 @@
 
 namespace ergotic::audio {
 
-/// One life of a JACK client: from a server that is there until it goes.
+/// A session of a JACK client: from the start of a server until it goes.
 ///
 /// The order of calls is constructor, activate, then any number of pause and resume.
 /// Realtime: no. Thread: one
 class JackSession {
  public:
-  /// \param wake  posted when `isLost` or `takeChange` has something to tell; shared, for libjack
+  /// \param wake  posted when `isLost` or `takeChange` has news; shared, for libjack
   ///              may call back even after the session
   /// \throws DeviceError if there is no server or it takes no client
   JackSession(const std::string& server, const std::string& name, std::shared_ptr<Semaphore> wake);
@@ -41,14 +41,14 @@ class JackSession {
   std::shared_ptr<const std::atomic<std::int64_t>> lastPeriodNs() const;
 
   bool isLost() const noexcept;          ///< the server went away or threw us out
-  bool isFreewheeling() const noexcept;  ///< of the server
+  bool isFreewheeling() const noexcept;  ///< state of the server
   /// Whether period or freewheeling changed since the last call.
   bool takeChange() noexcept;
-  std::int64_t takeXruns() noexcept;  ///< since the last call
+  std::int64_t takeXruns() noexcept;  ///< number since the last call
 
   std::string clientName() const;
   double sampleRate() const noexcept;           ///< Hz
-  std::uint32_t periodFrames() const noexcept;  ///< as last resumed
+  std::uint32_t periodFrames() const noexcept;  ///< at the last resume
 
   /// Full names of audio ports that give sound and match the regular expression (POSIX extended),
   /// or whose name is `exact`.

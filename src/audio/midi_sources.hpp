@@ -10,8 +10,8 @@
 
 namespace ergotic::audio {
 
-/// Connects MIDI ports of others to one of ours, each once when it appears: what somebody
-/// disconnects by hand stays so until the port has gone and come back.
+/// Connects MIDI ports of others to one of ours, each once when it appears: a port that was
+/// disconnected by hand stays so until it has gone and come back.
 /// Realtime: no. Thread: one
 class MidiSources {
  public:

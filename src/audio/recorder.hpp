@@ -14,9 +14,9 @@ namespace ergotic::audio {
 
 /// Takes blocks in a real-time thread, writes them to a file in another, each at its frame time.
 ///
-/// A client that an asynchronous JACK server did not wait for may run a cycle late: it is told the
+/// A client that an asynchronous JACK server did not wait for may run a cycle late: it gets the
 /// frame time of the next cycle, and the same again in that next one. So a block is held back until
-/// its successor has confirmed its place.
+/// its successor has confirmed its position.
 class Recorder : public rt::AudioProcessor {
  public:
   /// \param ring_frames  how far the file may lag behind

@@ -18,7 +18,7 @@ class Semaphore {
   Semaphore(const Semaphore&) = delete;
   Semaphore& operator=(const Semaphore&) = delete;
 
-  /// Never blocks. Thread: any
+  /// Posts without blocking. Thread: any
   void post() noexcept { sem_post(&semaphore_); }
 
   /// Takes back all posts so far.

@@ -30,7 +30,7 @@ std::string reason(SNDFILE* file, int system_error) {
   return text;
 }
 
-/// Not of a pipe, which can be read but once.
+/// Finds an unfinished file; not in a pipe, which can be read but once.
 std::optional<UnfinishedWav> unfinishedAt(const std::string& path) {
   std::error_code error;
   if (!std::filesystem::is_regular_file(path, error)) {

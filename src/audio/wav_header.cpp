@@ -16,7 +16,7 @@ constexpr int kFormBytes = 12;
 constexpr int kChunkHead = 8;
 constexpr int kMostChunks = 1000;  // before the samples
 constexpr std::size_t kDs64Bytes = 28;
-/// Of the identifiers of extensible formats, after the tag.
+/// End of the identifiers of extensible formats, after the tag.
 constexpr char kGuidEnd[] = "\x00\x00\x00\x00\x10\x00\x80\x00\x00\xAA\x00\x38\x9B\x71";
 
 void put(std::string& bytes, std::uint64_t number, int width) {

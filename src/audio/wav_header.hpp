@@ -8,7 +8,7 @@
 
 namespace ergotic::audio {
 
-/// Of the samples of a WAV file.
+/// Format of the samples of a WAV file.
 struct WavShape {
   int rate = 0;  ///< Hz
   int channels = 0;
@@ -20,7 +20,7 @@ struct WavShape {
 
 constexpr std::int64_t kUnknownFrames = -1;
 
-/// What stands before the samples, as long for any number of frames: format tag 1 or 3 for up to
+/// Header before the samples, of equal length for any number of frames: format tag 1 or 3 for up to
 /// two channels, WAVE_FORMAT_EXTENSIBLE for more; RF64 (EBU Tech 3306) where 32 bits do not hold
 /// the size.
 /// \param frames  kUnknownFrames while it is written: readers then go on to the end of the file
@@ -29,11 +29,11 @@ std::string wavHeader(const WavShape& shape, std::int64_t frames);
 /// Bytes after the last frame that make their number even.
 std::int64_t wavPadding(const WavShape& shape, std::int64_t frames);
 
-/// Samples of a WAV file whose header does not say how many there are, because what wrote it was
-/// killed, or wrote to a pipe.
+/// Samples of a WAV file whose header does not give their number, because its writer was killed, or
+/// wrote to a pipe.
 struct UnfinishedWav {
   WavShape shape;
-  std::int64_t begin = 0;   ///< of the samples, bytes
+  std::int64_t begin = 0;   ///< position of the samples, bytes
   std::int64_t frames = 0;  ///< up to the end of the file
 };
 

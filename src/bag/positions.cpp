@@ -14,7 +14,7 @@
 namespace ergotic::bag {
 namespace {
 
-/// Those of the stretch that is played, read when it begins.
+/// Recorded positions; those of a stretch are read when it begins.
 class RecordedPositions : public tgr::GestureSource {
  public:
   explicit RecordedPositions(Recording recording)

@@ -25,8 +25,7 @@
 namespace ergotic::bag {
 namespace {
 
-/// What a message is told to have by the one that it is in, such as `a.bag: the keyframe of tick
-/// 5`.
+/// Name of a message for error texts, as `a.bag: the keyframe of tick 5`.
 std::string named(const std::string& path, const char* kind, std::int64_t tick) {
   return path + ": the " + kind + " of tick " + std::to_string(tick);
 }
@@ -221,7 +220,7 @@ RecordedMessage bytesOf(const rosbag::MessageInstance& message) {
   return {message.getDataType(), message.getMD5Sum(), std::move(data)};
 }
 
-/// Why a bag cannot be read, and the command that makes it readable.
+/// Explains why a bag cannot be read, and names the command that makes it readable.
 Exception unreadable(const std::string& path, const rosbag::BagException& error) {
   const std::string mend =
       ". `rosbag reindex " + path + "` keeps what is whole of it, if anything is";
@@ -236,11 +235,11 @@ Exception unreadable(const std::string& path, const rosbag::BagException& error)
   return Exception(path + ": is damaged or no bag of ROS 1 (" + error.what() + ")" + mend);
 }
 
-/// Where the positions of a recording are.
+/// Positions of a recording in its bag.
 struct Blocks {
   explicit Blocks(const std::string& path) : bag(openToRead(path)) {}
 
-  /// Nothing is taken of a file that was changed since it was read, or overwritten.
+  /// Loads a stretch; refuses a file that was changed since it was read, or overwritten.
   void load(Stretch& stretch, const std::string& path) const {
     try {
       RecordedMessage message = bytesOf(messages[stretch.block]);
@@ -274,7 +273,7 @@ bool isOurs(const rosbag::ConnectionInfo& connection) {
   return connection.datatype.rfind("ergotic/", 0) == 0;
 }
 
-/// What the messages of one station are among.
+/// Filter for the messages of one station.
 std::function<bool(const rosbag::ConnectionInfo*)> ofStation(const rosbag::Bag& bag,
                                                              const std::string& wanted,
                                                              const std::string& path) {

@@ -9,16 +9,16 @@
 #include "ergotic/bag/recording.hpp"
 #include "ergotic/tgr/gesture.hpp"
 
-/// What reads a bag, behind the library that opens it.
+/// Reader of bags, behind the library that opens them.
 namespace ergotic::bag {
 
 struct RecordedMessage {
   std::string type;
-  std::string md5;  ///< of its definition
+  std::string md5;  ///< MD5 sum of the type's definition
   std::vector<std::uint8_t> data;
 };
 
-/// Adds a message of a station; any other is passed over.
+/// Adds a message of a station; other messages are ignored.
 /// \param path  of the bag, for messages
 /// \throws Exception if it is cut short, or holds what no station can have recorded
 void add(Recording& recording, RecordedMessage& message, const std::string& path);
@@ -26,7 +26,7 @@ void add(Recording& recording, RecordedMessage& message, const std::string& path
 /// Puts everything in the order of ticks. \throws Exception if it is no whole performance
 void finish(Recording& recording, const std::string& path);
 
-/// As `readPositions`, but none is read before it is asked for. Realtime: no
+/// Reads positions as `readPositions`, each when it is needed. Realtime: no
 /// \throws Exception as `readPositions`
 std::unique_ptr<tgr::GestureSource> positionsOf(Recording recording, const std::string& path);
 

@@ -6,7 +6,7 @@
 namespace ergotic::files {
 namespace {
 
-/// Where to cut: not in the middle of a UTF-8 character.
+/// Position at which to cut a text: not in the middle of a UTF-8 character.
 std::size_t endOf(const std::string& text, std::size_t most) {
   std::size_t end = most;
   while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0U) == 0x80U) {

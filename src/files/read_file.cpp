@@ -28,8 +28,8 @@ namespace {
   refuse(path, std::generic_category().message(error));
 }
 
-/// A place in the file system that stays the same whatever another puts there, and that nobody has
-/// opened yet: to open a pipe is to wait for whoever writes it, and some devices begin to act.
+/// A reference to a place in the file system that does not follow later changes, and is not opened
+/// yet: opening a pipe waits for its writer, and opening some devices has effects.
 class Place {
  public:
   explicit Place(const std::string& path) : path_(path) {
@@ -72,8 +72,8 @@ class Place {
   }
 
  private:
-  /// Whether the kernel makes up what is read: some of it never ends, some (/proc/kmsg) waits for
-  /// ever, and some tells secrets of this process.
+  /// Whether the kernel generates the content: some of it never ends, some (/proc/kmsg) waits for
+  /// ever, and some contains secrets of this process.
   bool isOfKernel() const {
     struct statfs system {};
     if (fstatfs(number_, &system) != 0) {

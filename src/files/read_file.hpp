@@ -9,7 +9,7 @@
 /// end, and memory is locked.
 namespace ergotic::files {
 
-/// Of recordings of positions, which are far longer than texts.
+/// Largest size of recordings of positions, which are far longer than texts.
 constexpr std::size_t kMaxRecordingBytes = std::size_t{8} << 30U;
 
 /// True if a path leads below a folder, whatever links are on the way; it need not exist.
@@ -22,7 +22,7 @@ void requireFile(const std::string& path);
 /// \throws Exception if it cannot be read, is no regular file or has more bytes than `most`
 std::ifstream openFile(const std::string& path, std::size_t most);
 
-/// All of a regular file. \throws Exception as `openFile`
+/// Reads a whole regular file. \throws Exception as `openFile`
 std::string readFile(const std::string& path, std::size_t most);
 
 }  // namespace ergotic::files

@@ -45,7 +45,8 @@ class EvdevPad : public PadDevice {
   int file() const override { return file_.number(); }
   const PadTraits& traits() const override { return traits_; }
 
-  /// After events that the kernel had to drop, libevdev tells what has changed meanwhile.
+  /// Returns the next event. After events that the kernel had to drop, libevdev reports the
+  /// changes.
   std::optional<PadEvent> next() override {
     input_event event{};
     const int wanted = is_dropped_ ? LIBEVDEV_READ_FLAG_SYNC : LIBEVDEV_READ_FLAG_NORMAL;

@@ -7,7 +7,7 @@
 
 namespace ergotic::gamepads {
 
-/// What libevdev knows of a device.
+/// Traits of a device, by libevdev.
 PadTraits traitsOf(const libevdev* device);
 
 }  // namespace ergotic::gamepads

@@ -20,7 +20,7 @@ namespace ergotic::gamepads {
 /// words, the highest first) has the buttons of a gamepad.
 bool hasGamepadButtons(const std::string& keys);
 
-/// Who hears of gamepads, numbered from 0 on. All are called by the thread of the watch.
+/// Callbacks for gamepads, numbered from 0 on. All are called by the thread of the watch.
 struct GamepadListener {
   std::function<void(int pad, const tgr::GamepadMove& move)> moved;
   std::function<void(int pad)> unplugged;
@@ -28,15 +28,15 @@ struct GamepadListener {
   std::function<void(const std::string& why)> refused;
 };
 
-/// Where the kernel tells of its devices.
+/// Folders in which the kernel lists its devices.
 struct GamepadPlaces {
   std::string devices = "/dev/input";
   std::string classes = "/sys/class/input";
 };
 
-/// Looks for gamepads each second and tells what is done with them, in an ordinary thread of its
-/// own. Only gamepads are opened, no keyboard or mouse. What cannot be opened is told once, as long
-/// as it is there. Thread: the one that makes it
+/// Looks for gamepads each second and passes on their events, in an ordinary thread of its own.
+/// Only gamepads are opened, no keyboard or mouse. A device that cannot be opened is reported once,
+/// as long as it is there. Thread: the one that makes it
 class GamepadWatch {
  public:
   static constexpr std::int64_t kLookNs = 1'000'000'000;

@@ -37,13 +37,14 @@ bool isUpsideDown(GamepadAxis axis) {
   return axis == GamepadAxis::kLeftY || axis == GamepadAxis::kRightY;
 }
 
-/// From the end of what is told as rest, evenly to 1.
+/// Applies the dead zone `rest`; beyond it the value rises linearly to 1.
 double beyondRest(double share, double rest) {
   const double way = std::abs(share);
   return way <= rest ? 0.0 : std::copysign(std::min((way - rest) / (1.0 - rest), 1.0), share);
 }
 
-/// The first of some codes that the gamepad has; 0: none, as ABS_X is always the left stick.
+/// Returns the first of some codes that the gamepad has; 0: none, as ABS_X is always the left
+/// stick.
 int firstOf(const PadTraits& traits, std::initializer_list<int> codes) {
   const auto found = std::find_if(codes.begin(), codes.end(),
                                   [&](int code) { return traits.axes.count(code) > 0; });

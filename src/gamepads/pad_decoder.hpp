@@ -9,20 +9,20 @@
 
 namespace ergotic::gamepads {
 
-/// Makes moves of a gamepad of what the kernel tells of one. Which code is which stick or trigger
+/// Converts events of the kernel to moves of a gamepad. Which code is which stick or trigger
 /// differs between gamepads, and follows from what they have (the kernel's
-/// Documentation/input/gamepad.rst, and what its drivers xpad and hid-generic do). All begins at
-/// rest; what has not changed is not told. Thread: one
+/// Documentation/input/gamepad.rst, and what its drivers xpad and hid-generic do). All controls
+/// begin at rest; unchanged values are not reported. Thread: one
 class PadDecoder {
  public:
   explicit PadDecoder(const PadTraits& traits);
 
   std::vector<tgr::GamepadMove> decode(const PadEvent& event);
 
-  /// Of the way of a stick from its middle, of which nothing is told: sticks do not come back
-  /// exactly. What is told goes on evenly from there, to the end.
+  /// Dead zone of a stick, as a share of its range from the middle: sticks do not come back
+  /// exactly. Beyond it the output rises linearly to the end.
   static constexpr double kStickRest = 0.1;
-  static constexpr double kTriggerRest = 0.02;  ///< of the way of a trigger, the same
+  static constexpr double kTriggerRest = 0.02;  ///< dead zone of a trigger, likewise
 
  private:
   struct Axis {

@@ -65,7 +65,7 @@ void closeAllBut(const std::vector<int>& kept) {
   std::for_each(others.begin(), others.end(), ::close);
 }
 
-/// What follows the page.
+/// Reads the arguments after the page.
 void read(const Words& words, int page, Settings& settings) {
   settings.silence_ms = std::stoi(words.at(1));
   settings.priority = std::stoi(words.at(2));
@@ -85,7 +85,8 @@ void read(const Words& words, int page, Settings& settings) {
 
 sigjmp_buf* way_out = nullptr;  // of a device whose memory is gone
 
-/// Shared memory that somebody has cut off is no reason to leave the other devices as they are.
+/// Handles SIGBUS: truncated shared memory of one device does not keep the others from being made
+/// safe.
 void onBus(int number) {
   if (way_out != nullptr) {
     ::siglongjmp(*way_out, 1);
@@ -103,7 +104,7 @@ void makeSafe(Hold& hold) {
   }
 }
 
-/// In one thread, which `onAct` may interrupt.
+/// Makes all devices safe, in one thread, which `onAct` may interrupt.
 void makeSafe(const Settings& settings) {
   sigjmp_buf* const outer = way_out;
   for (const auto& hold : settings.holds) {
@@ -121,7 +122,7 @@ void onAct(int /*signal*/) {
   errno = saved;
 }
 
-/// Only what is stronger than the station's own faults may end it.
+/// Protects the guardian from everything but signals stronger than the station's own faults.
 void outlive(int priority) {
   for (const int number : {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGPIPE}) {
     ::signal(number, SIG_IGN);
@@ -135,7 +136,7 @@ void outlive(int priority) {
 
 enum class Heard { kNothing, kQuit, kEnd };
 
-/// Waits for the lock of life: whoever gets it is the last.
+/// Waits for the mutex `life`, which is free once the station's thread has quit or has died.
 Heard listen(tgr::GuardianPage& page, int timeout_ms) {
   constexpr std::int64_t kNsPerMs = 1'000'000;
   constexpr std::int64_t kNsPerS = 1'000'000'000;
@@ -148,8 +149,8 @@ Heard listen(tgr::GuardianPage& page, int timeout_ms) {
   return page.quit ? Heard::kQuit : Heard::kEnd;
 }
 
-/// A look that finds no new beat stands for a quarter of the silence, however late it comes: what
-/// keeps us from looking keeps the station from beating.
+/// Watches the station. A look that finds no new beat counts as a quarter of the silence, however
+/// late it comes: load that delays the looks delays the beats as well.
 /// \return true if the station died
 bool watch(const Settings& settings) {
   constexpr int kLooks = 4;
@@ -170,7 +171,8 @@ bool watch(const Settings& settings) {
   return heard == Heard::kEnd;
 }
 
-/// What the kernel still does for a process that dies may come after the first time.
+/// Makes safe repeatedly, as the kernel may still execute actions of a dying process after the
+/// first time.
 void bury(const Settings& settings) {
   constexpr int kTimes = 20;
   constexpr std::int64_t kPauseNs = 5'000'000;

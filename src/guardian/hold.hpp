@@ -7,11 +7,11 @@
 
 namespace ergotic::guardian {
 
-/// What a guardian holds of one device.
+/// Access of a guardian to one device.
 class Hold {
  public:
   virtual ~Hold() = default;
-  /// Takes the force off, again and again if need be. Returns at once.
+  /// Takes the force off, repeatedly if necessary. Returns at once.
   virtual void makeSafe() noexcept = 0;
 };
 

@@ -18,8 +18,8 @@ Init nextInit() noexcept {
   return next;
 }
 
-/// Those that several processes share, and those with a protocol of their own, are as their owner
-/// made them.
+/// Whether the protocol may be changed; mutexes that several processes share, and those with a
+/// protocol of their own, stay as their owner made them.
 bool mayInherit(const pthread_mutexattr_t& attributes) noexcept {
   int shared = PTHREAD_PROCESS_PRIVATE;
   int protocol = PTHREAD_PRIO_NONE;

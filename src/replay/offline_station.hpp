@@ -38,24 +38,24 @@ class OfflineStation : private station::FramePort {
   /// \throws Exception if the station does not take it
   void submit(const station::Command& command);
 
-  /// As Station::move. \throws Exception if the station does not take it
+  /// Moves a hand, as Station::move. \throws Exception if the station does not take it
   void move(const tgr::HandMove& move, double due_tick);
 
-  /// The model plays with these values of its parameters from the next tick on.
-  /// \param values  [parameters]. \param index  which of them is new, for the record
+  /// Sets the parameters of the model from the next tick on.
+  /// \param values  [parameters]. \param index  index of the new value, for the record
   /// \throws Exception if the station does not take it
   void setParameter(const physics::Instrument& instrument,
                     const std::vector<double>& values,
                     int index);
 
-  /// As recorded. \throws Exception if the station does not take it
+  /// Sets a hold as recorded. \throws Exception if the station does not take it
   void hold(std::size_t hand, const station::Hold& hold);
 
-  /// Runs one tick; then what it told, freed of what it handed back, goes to `hear`.
+  /// Runs one tick; its events, without the objects that they hand back, then go to `hear`.
   /// \param[out] frames  [R][output channels]
   void cycle(double* frames, const std::function<void(const station::Event&)>& hear = nullptr);
 
-  /// The next tick never runs, but counts.
+  /// Skips the next tick, which the tick index counts.
   void skip() { station_.skip(1); }
 
   const station::Keyframe& keyframe() const { return station_.keyframe(); }

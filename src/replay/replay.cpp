@@ -21,7 +21,7 @@ scene::Scene sceneOf(const bag::Keyframe& keyframe) {
              : scene::readYaml(keyframe.scene_text, name, {}, {"", false});
 }
 
-/// As it was recorded, with the best kernels of this processor where it lacks the recorded ones.
+/// Options as recorded, with the best kernels of this processor if it lacks the recorded ones.
 physics::CompileOptions recordedOptions(const bag::Keyframe& keyframe) {
   physics::CompileOptions options(keyframe.precision);
   options.threads = keyframe.threads;
@@ -42,8 +42,8 @@ bool beginsAnew(const station::Event& event) {
   return event.type == EventType::kRecovered && event.index == 1;
 }
 
-/// Of the device. Keyframes of recordings from before November 2026 may say 0: they were written
-/// before the station had read its device for the first time.
+/// Number of slices of the device. Keyframes of recordings from before November 2026 may contain 0:
+/// they were written before the station had read its device for the first time.
 std::size_t slicesAt(const bag::Keyframe& start, const bag::Recording& recording) {
   return start.slices > 0 ? static_cast<std::size_t>(start.slices)
                           : recording.stretches.front().slices;
@@ -122,7 +122,8 @@ std::size_t Replay::findStart() const {
                   std::to_string(keyframes.front().tick));
 }
 
-/// As when it was swapped in: with the parameters of its text, from its initial state.
+/// Makes the performer in its state of the swap: with the parameters of its text, from its initial
+/// state.
 std::unique_ptr<station::Performer> Replay::perform(const bag::Keyframe& keyframe) const {
   const physics::CompileOptions recorded = recordedOptions(keyframe);
   auto performer = station::makePerformer(sceneOf(keyframe), keyframe.rates,
@@ -131,7 +132,8 @@ std::unique_ptr<station::Performer> Replay::perform(const bag::Keyframe& keyfram
   return performer;
 }
 
-/// A model that had blown up is no number: it was silent, and begins anew when it recovers.
+/// Checks that a state is finite, unless the model had blown up: it was silent then, and begins
+/// anew when it recovers.
 void Replay::checkState(const bag::Keyframe& keyframe,
                         const physics::Instrument& instrument) const {
   if (wasAtFault()) {
@@ -145,7 +147,7 @@ void Replay::checkState(const bag::Keyframe& keyframe,
   }
 }
 
-/// As it was at the keyframe.
+/// Makes the performer in its state of the keyframe.
 std::unique_ptr<station::Performer> Replay::resume(const bag::Keyframe& keyframe) const {
   std::unique_ptr<station::Performer> performer = perform(keyframe);
   physics::Instrument& instrument = *performer->instrument;
@@ -311,7 +313,7 @@ void Replay::submitParameter(const station::Event& event) {
                          static_cast<int>(event.index));
 }
 
-/// Every later keyframe is a check of the replay.
+/// Requests a keyframe at the tick of every later recorded one, to check the replay.
 void Replay::submitKeyframe() {
   const auto& keyframes = recording_.keyframes;
   while (keyframe_ < keyframes.size() && keyframes[keyframe_].tick < tick_) {
@@ -343,7 +345,7 @@ void Replay::hear(const station::Event& event) {
   }
 }
 
-/// Whether the performance was at fault at this tick: blow-ups are told only where it was not.
+/// Whether the performance was at fault at this tick: blow-ups are reported only if it was not.
 bool Replay::wasAtFault() const {
   bool fault = false;
   for (const station::Event& event : recording_.events) {

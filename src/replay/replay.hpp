@@ -14,15 +14,15 @@
 
 namespace ergotic::replay {
 
-/// From the options that were recorded to those that are played with.
+/// Map from the recorded options of compilation to those of the replay.
 using CompileChoice = std::function<physics::CompileOptions(physics::CompileOptions recorded)>;
 
 /// Plays a recorded performance again in a station: the recorded positions, parameter changes,
 /// swaps and new beginnings after a blow-up at their ticks. The same build gives the same samples,
 /// bit for bit, on any processor.
 ///
-/// Ticks that never ran when it was recorded are silence; ticks that ran but are missing from the
-/// recording are played with the last position held, and told of in `flaws`.
+/// Ticks that never ran during the recording are silence; ticks that ran but are missing from the
+/// recording are played with the last position held, and reported in `flaws`.
 class Replay {
  public:
   /// Starts at the first keyframe whose tick was recorded.
@@ -38,26 +38,27 @@ class Replay {
   int outputChannels() const { return station_->outputChannels(); }
   const physics::Instrument& instrument() const {
     return *playing_.performer->instrument;
-  }  ///< that plays
+  }  ///< instrument that plays
 
   /// \param[out] frames  [R][output channels], where R frames make a tick
   /// \return false if there is no more; `frames` is untouched then
   /// \throws Exception if the recording cannot be played on
   bool next(double* frames);
 
-  /// How the model stands now, about 60 times a second of its time.
-  /// \return null if that was not taken since the last call
+  /// Present motion of the model, about 60 times per second of its time.
+  /// \return null if there is no new frame since the last call
   const station::MotionFrame* motion();
 
-  /// Where the slices of the device were at the last tick, m.
+  /// Positions of the device's slices at the last tick, m.
   const std::vector<double>& slices() const { return position_; }
 
-  /// Ticks that are left to play.
+  /// Number of ticks left to play.
   std::int64_t ticksLeft() const;
 
   const bag::Keyframe& start() const { return recording_.keyframes[start_]; }
 
-  /// Why the sound is not that of the performance, in order; empty: it is.
+  /// Reasons for which the sound differs from the recorded performance, in order; empty: it is
+  /// equal.
   const std::vector<std::string>& flaws() const { return flaws_; }
 
  private:

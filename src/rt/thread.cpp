@@ -49,7 +49,7 @@ bool hasCapability(int capability) {
   return false;
 }
 
-/// Raises a soft limit as far as the hard one and tells where it now is.
+/// Raises a soft limit as far as the hard one. \return the limit now
 rlim_t raisedLimit(__rlimit_resource resource) {
   rlimit limit{};
   if (getrlimit(resource, &limit) != 0) {

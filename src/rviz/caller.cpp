@@ -120,7 +120,7 @@ void Caller::run(const std::shared_ptr<Shared>& shared) {
   shared->changed.notify_all();
 }
 
-/// Of the thread's own: the map is touched by no other.
+/// Service client of a job. The map of clients belongs to the calling thread alone.
 ::ros::ServiceClient Caller::connectedTo(const Job& job, Shared& shared) {
   ::ros::ServiceClient& client = shared.clients[job.service];
   if (!client.isValid()) {  // it never was there, or its station is gone

@@ -18,23 +18,23 @@
 
 namespace ergotic::panel {
 
-/// What a service said, in words.
+/// Answer of a service, in words.
 struct Answer {
   bool ok = false;
   std::string text;
 };
 
-/// \return what the station said, for a reader
+/// \return answer of the station, as text for a reader
 std::string wordsOf(const std_srvs::Trigger::Response& response);
 std::string wordsOf(const LearnController::Response& response);
 std::string wordsOf(const LoadModel::Response& response);
 std::string wordsOf(const Take::Response& response);
 std::string wordsOf(const Preset::Response& response);
 
-/// Asks services in a thread of its own, one after the other: a window never waits for a station.
-/// Connections stay: what was found once can be asked when the ROS master is gone, and roscpp loses
-/// answers over others (ros_comm issue 1976).
-/// Thread: any; but `tell` is called by the own one.
+/// Calls services in a thread of its own, one after the other: a window never waits for a station.
+/// Connections are kept: a service that was found once can be called when the ROS master is gone,
+/// and roscpp loses answers over others (ros_comm issue 1976).
+/// Thread: any; but the own thread calls `tell`
 class Caller {
  public:
   /// \param tell  gets every answer
@@ -82,11 +82,11 @@ class Caller {
     add(std::move(job));
   }
 
-  /// What waits is forgotten: something newer takes its place.
+  /// Drops the waiting calls, as newer ones replace them.
   void forgetWaiting();
-  /// What waits is forgotten, and what is asked is given up: it shall not come late.
+  /// Drops the waiting calls, and gives up the present one, so that none takes effect late.
   void cancel();
-  /// Ends what has waited too long for its answer. To be called now and then.
+  /// Gives up calls without an answer in time. To be called periodically.
   void giveUpLate();
 
  private:

@@ -7,17 +7,17 @@
 
 namespace ergotic::panel {
 
-/// How a camera looks, as that of rviz which orbits around a point.
+/// Direction and field of view of a camera, as that of rviz which orbits around a point.
 struct Look {
-  double yaw = 0.0;             ///< rad, of the camera as seen from the point
+  double yaw = 0.0;             ///< rad, direction of the camera from the point
   double pitch = 0.0;           ///< rad
   double field_of_view = 0.79;  ///< rad, from the lower to the upper edge
   double aspect = 1.0;          ///< width over height of the picture
 };
 
 struct Framing {
-  Eigen::Vector3d focus = Eigen::Vector3d::Zero();  ///< around which the camera orbits, m
-  double distance = 1.0;                            ///< from there, m
+  Eigen::Vector3d focus = Eigen::Vector3d::Zero();  ///< point around which the camera orbits, m
+  double distance = 1.0;                            ///< distance from there, m
 };
 
 /// A camera at a place, and what it looks at. \pre they are not one place
@@ -25,10 +25,10 @@ struct Shot {
   Eigen::Vector3d from;
   Eigen::Vector3d at;
 };
-/// How a camera looks that takes this shot; field of view and aspect stay as they were.
+/// Direction of a camera that takes this shot; field of view and aspect are unchanged.
 Look lookOf(const Shot& shot, Look look);
 
-/// Puts all points into the picture, with a margin around them and no more.
+/// Computes the camera that shows all points, with a margin around them.
 /// \param points  at least one, finite
 Framing frame(const std::vector<Eigen::Vector3d>& points, const Look& look);
 

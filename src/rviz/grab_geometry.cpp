@@ -87,7 +87,7 @@ void HandleSet::show(const ModelState& state) {
   }
 }
 
-/// One that is not finite is drawn at rest.
+/// Displacement of a module; one that is not finite counts as 0.
 Eigen::Vector3d HandleSet::displacementOf(std::size_t first, int dimensions) const {
   Eigen::Vector3d displacement = Eigen::Vector3d::Zero();
   for (int k = 0; k < dimensions && !displacement_.empty(); ++k) {
@@ -241,8 +241,8 @@ Drag::Drag(const Handle& handle, const Ray& ray, const Eigen::Vector3d& looks)
   last_ = pointOf(ray);
 }
 
-/// Of the axis through the handle the point that is nearest to the ray; of the plane through it
-/// that faces the camera the point where the ray meets it.
+/// Target of a ray. A handle with one axis: the point of the axis that is nearest to the ray; else
+/// the point where the ray meets the plane through the handle that faces the camera.
 Eigen::Vector3d Drag::pointOf(const Ray& ray) const {
   if (handle_.axes() != 1) {
     const double facing = ray.direction.dot(looks_);

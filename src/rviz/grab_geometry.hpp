@@ -16,7 +16,7 @@
 
 namespace ergotic::panel {
 
-/// Where the mouse points: from the eye on, in frame `model`.
+/// Ray from the eye through the mouse pointer, in frame `model`.
 struct Ray {
   Eigen::Vector3d origin;
   Eigen::Vector3d direction;  ///< of length 1
@@ -24,11 +24,11 @@ struct Ray {
   Eigen::Vector3d at(double distance) const { return origin + distance * direction; }
 };
 
-/// A module that can be taken, as it is drawn: where it is, and what moves it.
+/// A module that can be taken: its drawn position, and its mover.
 struct Handle {
   std::string name;
   int module = -1;           ///< index in ModelStructure, if a hand holds the module itself
-  std::string end_effector;  ///< whose coordinates move it; empty: slices do
+  std::string end_effector;  ///< end-effector of its coordinates; empty: slices
   std::array<int, 3> indices{-1, -1, -1};
   std::array<double, 3> scales{1.0, 1.0, 1.0};
   std::array<double, 3> offsets{};
@@ -41,15 +41,15 @@ struct Handle {
   std::vector<std::string> played;  ///< strings, bars and surfaces that it plays, see playedBy
   int dimensions = 1;
 
-  /// Where it is drawn at a displacement, m.
+  /// Drawn position at a displacement, m.
   Eigen::Vector3d placeAt(const Eigen::Vector3d& displaced) const {
     return drawing * (rest + displaced);
   }
   Eigen::Vector3d place() const { return placeAt(displacement); }
-  int axes() const;  ///< along which it can be moved
-  /// Whether it plays the string, bar or surface that a module of this name is of.
+  int axes() const;  ///< number of axes along which it can be moved
+  /// Whether it plays the string, bar or surface to which a module of this name belongs.
   bool plays(const std::string& module_name) const;
-  /// Its name, and how far it is from rest, mm: with a sign where it moves along x alone.
+  /// Its name, and its distance from rest, mm: with a sign if it moves along x alone.
   std::string label() const;
 };
 
@@ -58,15 +58,17 @@ class HandleSet {
  public:
   void show(const ModelStructure& structure);
   void show(const Handles& handles);
-  /// What has another number of coordinates is of another model, and passed over.
+  /// Takes a state. A state with another number of coordinates belongs to another model, and is
+  /// ignored.
   void show(const ModelState& state);
 
   const std::vector<Handle>& handles() const { return handles_; }
-  /// A module that a hand can hold wherever it is, as it is now. \pre below modules()
+  /// Handle for a module that a hand can hold anywhere, in its present state. \pre below modules()
   Handle moduleAt(std::size_t module) const;
-  /// Of the structure, once handles have come for it, else 0.
+  /// Number of modules of the structure, once its handles have arrived, else 0.
   std::size_t modules() const { return first_.size(); }
-  /// Calls `visit(module, where it is drawn now, where at rest)` for all modules that can be held.
+  /// Calls `visit(module, drawn position, drawn position at rest)` for all modules that can be
+  /// held.
   template <class Visit>
   void forEachModule(const Visit& visit) const {
     for (std::size_t module = 0; module < modules(); ++module) {
@@ -79,15 +81,14 @@ class HandleSet {
   bool isPlayed(std::size_t module) const;
   /// Name of the frame `model` of its station.
   const std::string& frame() const { return structure_.header.frame_id; }
-  /// Where all modules are drawn at rest, frame `model`, m; empty until it is known of what. Modes
-  /// whose body has an outline are not drawn.
+  /// Drawn positions of all modules at rest, frame `model`, m; empty until the structure is known.
+  /// Modes of a body with an outline are left out.
   std::vector<Eigen::Vector3d> places() const;
-  /// The camera that the scene wants, and what it shall look at, frame `model`, m; empty: it does
-  /// not say.
+  /// Camera position and target of the scene, frame `model`, m; empty: the scene gives none.
   std::vector<Eigen::Vector3d> camera() const;
-  /// Counts the models.
+  /// Number of models so far.
   int models() const { return models_; }
-  /// Counts the times that the handles became others.
+  /// Number of changes of the handles so far.
   int version() const { return version_; }
 
  private:
@@ -126,7 +127,7 @@ class Drag {
   /// Nearer or farther along the view, m in the picture.
   void push(double depth_m);
 
-  /// Where the handle is wanted, m from its rest, in its section.
+  /// Target of the handle, m from its rest, in its section.
   const Eigen::Vector3d& displacement() const { return displacement_; }
 
  private:
@@ -140,20 +141,20 @@ class Drag {
   Eigen::Vector3d displacement_;
 };
 
-/// What a player has taken hold of. All modules of an end-effector go the same way.
+/// Handle in the hand of a player. All modules of an end-effector move together.
 class Grab {
  public:
   Grab(const HandleSet& set, const Handle& handle, const Ray& ray, const Eigen::Vector3d& looks);
 
   Drag& drag() { return drag_; }
   const Handle& handle() const { return taken_; }  ///< as it was when it was taken
-  /// Where it is wanted, in the picture.
+  /// Target in the picture.
   Eigen::Vector3d place() const { return taken_.placeAt(drag_.displacement()); }
-  /// Between where it is wanted and where it is, m of coordinate or slice.
+  /// Distance between target and present position, m of coordinate or slice.
   double stretchFrom(const Eigen::Vector3d& displacement) const;
-  /// For the station, within what a hand may want; without a stamp.
+  /// Message to the station, with targets within a hand's range; without a stamp.
   HandTargets targets() const;
-  /// The same for a module that is held itself. \pre handle().module >= 0
+  /// Message for a module that is held itself. \pre handle().module >= 0
   HoldTarget target() const;
 
  private:

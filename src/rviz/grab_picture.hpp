@@ -25,9 +25,9 @@ inline Ogre::Vector3 toOgre(const Eigen::Vector3d& v) {
   return {static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z())};
 }
 
-/// What the grab tool draws: a ring of light about the handle under the mouse and its name; of a
-/// handle that is held, the place where the player wants it, the band between, and the pull in
-/// newtons, red near the most that the hand gives. Places are in frame `model`.
+/// Picture of the grab tool: a ring of light about the handle under the mouse and its name; of a
+/// handle that is held, the target, the band between, and the pull in newtons, red near the force
+/// limit of the hand. Places are in frame `model`.
 /// Thread: of the window
 class GrabPicture {
  public:
@@ -36,14 +36,14 @@ class GrabPicture {
   GrabPicture(const GrabPicture&) = delete;
   GrabPicture& operator=(const GrabPicture&) = delete;
 
-  /// Where frame `model` is in the fixed frame.
+  /// Sets the pose of frame `model` in the fixed frame.
   void setFrame(const Ogre::Vector3& position, const Ogre::Quaternion& orientation);
   void hide();
-  /// Which way is up on the screen, of length 1.
+  /// Sets the upward direction of the screen, of length 1.
   void setUp(const Eigen::Vector3d& up) { up_ = up; }
   /// \param size  of a handle's mark, m
   void showHover(const Eigen::Vector3d& place, const std::string& name, double size);
-  /// \param share  of the most force that the hand gives
+  /// \param share  of the hand's force limit
   void showPull(const Eigen::Vector3d& handle,
                 const Eigen::Vector3d& wanted,
                 double newtons,

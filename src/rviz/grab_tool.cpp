@@ -66,7 +66,7 @@ Eigen::Quaterniond toEigen(const Ogre::Quaternion& q) {
   return Eigen::Quaternionf(q.w, q.x, q.y, q.z).cast<double>();
 }
 
-/// Where places of frame `model` are seen, in pixels of the picture.
+/// Projection of frame `model` to pixels of the picture.
 class Screen {
  public:
   Screen(const rviz::ViewportMouseEvent& event, const Eigen::Isometry3d& model)
@@ -77,7 +77,7 @@ class Screen {
         height_(event.viewport->getActualHeight()),
         pointer_(event.x, event.y) {}
 
-  /// From the pointer; infinite for what is behind the camera.
+  /// Distance from the pointer, pixels; infinite for places behind the camera.
   double distanceTo(const Eigen::Vector3d& place) const {
     const auto seen = pixelOf(place);
     return seen ? (*seen - pointer_).norm() : std::numeric_limits<double>::infinity();
@@ -223,8 +223,8 @@ void GrabTool::sendNote(int note, int velocity) {
   notes_.publish(message);
 }
 
-/// By the clock of the window system, which stamps mouse events when they happen; rviz may come to
-/// them a frame later.
+/// Time by the clock of the window system, which stamps mouse events when they happen; rviz may
+/// process them a frame later.
 std::int64_t GrabTool::nowOfEvents() const {
   constexpr std::int64_t kNsPerMs = 1'000'000;
   return event_ms_ * kNsPerMs + (wallNs() - event_wall_ns_);
@@ -261,7 +261,7 @@ void GrabTool::update(float /*wall_dt*/, float /*ros_dt*/) {
   draw();
 }
 
-/// As the scene says, or from where the player looks, so that all of the model is in the picture.
+/// Camera of the scene, or one from the player's direction that shows the whole model.
 Framing GrabTool::framingOf(const std::vector<Eigen::Vector3d>& places, Look& look) {
   if (const std::vector<Eigen::Vector3d> camera = set_.camera(); !camera.empty()) {
     const Shot shot{model_ * camera[0], model_ * camera[1]};
@@ -375,7 +375,7 @@ std::optional<GrabTool::Near> GrabTool::moduleNear(const rviz::ViewportMouseEven
   return nearest ? std::optional<Near>({set_.moduleAt(*nearest), least}) : std::nullopt;
 }
 
-/// What a press of the button takes. Between two that are about as near it is the handle.
+/// Handle or module that a press of the button takes; at about equal distances the handle.
 std::optional<Handle> GrabTool::under(const rviz::ViewportMouseEvent& event) const {
   const auto handle = handleNear(event, kNearPixels);
   const auto module = moduleNear(event, kModulePixels);
@@ -401,8 +401,8 @@ std::optional<GrabTool::Near> GrabTool::playerNear(const rviz::ViewportMouseEven
                  [&](const Handle& handle) { return handle.plays(nearest_name); });
 }
 
-/// By a click: the hand that was clicked on, or one that plays the string, bar or skin there, which
-/// has no places of its own in its middle; beside all of them the nearest hand.
+/// Strikes by a click: with the hand under the pointer, or one that plays the string, bar or skin
+/// there, as these have no handles of their own in their middle; else with the nearest hand.
 void GrabTool::strike(rviz::ViewportMouseEvent& event) {
   const auto clicked = under(event);
   if (clicked && clicked->module < 0) {
@@ -515,7 +515,7 @@ int GrabTool::hold(rviz::ViewportMouseEvent& event) {
   return Render;
 }
 
-/// Of a pen, which may press more without moving.
+/// Pushes with a pen, which may press more without moving.
 void GrabTool::push(double depth_m) {
   if (grab_) {
     grab_->drag().push(depth_m);
@@ -567,7 +567,7 @@ void GrabTool::drop() {
   }
 }
 
-/// What is in hand, or would be, as it is now.
+/// Present state of the handle that is held, or would be.
 std::optional<Handle> GrabTool::asNow(const Handle& taken) const {
   if (taken.module >= 0) {
     const auto module = static_cast<std::size_t>(taken.module);
@@ -585,7 +585,7 @@ std::optional<Handle> GrabTool::heldNow() const {
   return grab_ ? asNow(grab_->handle()) : std::nullopt;
 }
 
-/// Of about the same size on the screen wherever it is.
+/// Size of a mark, m, that gives about the same size on the screen everywhere.
 double GrabTool::markSize(const Eigen::Vector3d& place) const {
   const Ogre::Camera* const camera = context_->getViewManager()->getRenderPanel()->getCamera();
   const double distance = (toEigen(camera->getDerivedPosition()) - model_ * place).norm();

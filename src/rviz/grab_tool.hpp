@@ -63,7 +63,7 @@ class GrabTool : public rviz::Tool {
   void tap(const Handle& handle, bool is_hard);
 
   std::optional<View> viewOf(const rviz::ViewportMouseEvent& event);
-  /// What is near the pointer, and how near.
+  /// Handle near the pointer, and its distance.
   struct Near {
     Handle handle;
     double pixels;
@@ -83,8 +83,8 @@ class GrabTool : public rviz::Tool {
   int hold(rviz::ViewportMouseEvent& event);
   void push(double depth_m);
   void take(const Handle& handle, const View& view);
-  void drop();   ///< what is in hand
-  void letGo();  ///< of that and of all keys
+  void drop();   ///< releases the handle that is held
+  void letGo();  ///< releases that handle and all keys
   void send();
   void draw();
   std::optional<Handle> asNow(const Handle& taken) const;

@@ -11,7 +11,7 @@ namespace ergotic::panel {
 /// A grip that a player can choose, with the figures of docs/tgr.md, A player's hand.
 struct Grip {
   const char* name;
-  std::uint8_t number;  ///< of HandTargets
+  std::uint8_t number;  ///< constant of HandTargets
   double stiffness;     ///< N/m
   double most_n;        ///< the greatest force, N
 };

@@ -16,7 +16,7 @@ namespace ergotic::panel {
 /// \param scan_code  of X11 (evdev plus 8): the place of the key, whatever its letter is
 std::optional<int> noteOfKey(std::uint32_t scan_code);
 
-/// Which notes the keys of a computer hold down. Thread: of the window
+/// Notes that are held by keys of a computer keyboard. Thread: of the window
 class KeyRows {
  public:
   /// \return the note that begins, if it is one that is not down already

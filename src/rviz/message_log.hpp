@@ -7,8 +7,8 @@
 
 namespace ergotic::panel {
 
-/// The last lines that a station told, newest last. What comes again and again is one line, until
-/// something else happens.
+/// Log of a station's last messages, newest last. A repeated message stays one line, until another
+/// one comes.
 class MessageLog {
  public:
   static constexpr std::size_t kLines = 100;
@@ -17,9 +17,9 @@ class MessageLog {
   /// \param kind  of what is summed up with others of its kind; empty: never
   void add(const std::string& time, const std::string& text, const std::string& kind = "");
 
-  /// All lines, ended by "\n" but for the last.
+  /// Text of all lines, separated by "\n".
   std::string text() const;
-  /// Grows with each change.
+  /// Number that grows with each change.
   std::size_t version() const { return version_; }
 
  private:

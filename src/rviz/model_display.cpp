@@ -285,7 +285,7 @@ void ModelDisplay::tellModel() {
   setStatus(rviz::StatusProperty::Ok, "Model", text);
 }
 
-/// Of the last second.
+/// Reports the drawing times of the last second.
 void ModelDisplay::tellPicture() {
   if (pictures_ > 0) {
     setStatus(rviz::StatusProperty::Ok, "Picture",

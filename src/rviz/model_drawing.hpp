@@ -6,8 +6,8 @@
 
 namespace ergotic::panel {
 
-/// From a section to the picture, frame `model`, m.
-/// \param zoom_of_x  by which x is magnified about x = 0, as the station's `display_zoom` says for
+/// Transform from a section to the picture, frame `model`, m.
+/// \param zoom_of_x  magnification of x about x = 0, as the station's `display_zoom` says for
 ///                   sections whose modules move along x alone
 inline Eigen::Affine3d drawingOf(const geometry_msgs::Pose& pose, double zoom_of_x) {
   const auto& q = pose.orientation;

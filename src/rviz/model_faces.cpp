@@ -39,7 +39,7 @@ class FaceFinder {
   }
 
  private:
-  /// Each once: from its lowest module.
+  /// Finds the quadrilaterals, each once: from its lowest module.
   std::vector<Mesh> quads() const {
     std::vector<Mesh> found;
     for (std::uint32_t a = 0; a < graph_.modules(); ++a) {
@@ -96,7 +96,7 @@ class FaceFinder {
     }
   }
 
-  /// No neighbour of its first corner lies inside, as in the squares that diagonals make.
+  /// Whether no neighbour of its first corner lies inside, as in the squares that diagonals make.
   bool isEmpty(const Mesh& mesh, const Eigen::Vector3f& normal) const {
     const ModuleIndices& around = graph_.of(mesh.corners[0]);
     return std::none_of(around.begin(), around.end(),
@@ -165,7 +165,7 @@ class FaceFinder {
     }
     accept(std::move(fillings));
   }
-  /// Its neighbours at links that only one mesh lies on.
+  /// Neighbours of a module at links that only one mesh lies on.
   ModuleIndices rimOf(std::uint32_t module) const {
     ModuleIndices rim;
     for (const std::uint32_t other : graph_.of(module)) {

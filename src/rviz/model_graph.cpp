@@ -122,7 +122,7 @@ LinkGraph::LinkGraph(const ModelStructure& structure, const std::function<bool(s
   sortOut();
 }
 
-/// Each neighbour once, and none of a hub.
+/// Sorts the lists: each neighbour once, and none of a hub.
 void LinkGraph::sortOut() {
   for (ModuleIndices& list : neighbours_) {
     std::sort(list.begin(), list.end());
@@ -133,7 +133,7 @@ void LinkGraph::sortOut() {
   }
 }
 
-/// Of two grounds that lie beside each other as two neighbours do that they hold.
+/// Links two grounds that lie beside each other like two neighbouring modules that they hold.
 void LinkGraph::joinRims(const ModelStructure& structure) {
   const auto isGround = [&](std::uint32_t i) {
     return structure.module_types[i] == ModelStructure::GROUND;

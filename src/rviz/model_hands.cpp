@@ -74,7 +74,7 @@ class FormFinder {
   }
 
  private:
-  /// What is touched of a string, bar, surface, or of a point that lies on one.
+  /// Contact link of a module to a string, bar, surface, or a point on one; null if there is none.
   const LinkEnd* touchedBy(std::uint32_t module) const {
     const auto& ends = ends_[module];
     const auto found = std::find_if(ends.begin(), ends.end(), [&](const LinkEnd& end) {
@@ -95,7 +95,7 @@ class FormFinder {
         return isHand(looks_[module]) || isHeld(module) ? HandForm::kFinger : HandForm::kHammer;
     }
   }
-  /// By a hand that does not only push it.
+  /// Whether a hand holds the module by a link that is no contact.
   bool isHeld(std::uint32_t module) const {
     const auto& ends = ends_[module];
     return std::any_of(ends.begin(), ends.end(), [&](const LinkEnd& end) {
@@ -117,7 +117,7 @@ class FormFinder {
       alignWith(touched->other, body);
     }
   }
-  /// With a link inside of the part.
+  /// Aligns a hand with a link inside of the part that it touches.
   void alignWith(std::uint32_t touched, HandBody& body) const {
     for (const LinkEnd& end : ends_[touched]) {
       const Eigen::Vector3f way = restOf(structure_, end.other) - restOf(structure_, touched);
@@ -151,7 +151,7 @@ class Placing {
     beside_ = filled.isEmpty() ? 0.0F : std::max(kBeside * filled.diagonal().norm(), kLeastBesideM);
   }
 
-  /// First what touches the parts, then what moves that, and so on.
+  /// Places the hands: first those that touch the parts, then those that move these, and so on.
   void run() {
     placePoints();
     for (bool has_moved = beside_ > 0.0F; has_moved;) {

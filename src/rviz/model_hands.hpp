@@ -10,21 +10,21 @@
 
 namespace ergotic::panel {
 
-/// What a module by itself looks like, as the laws of its links say.
+/// Form of a module by itself, by the laws of its links.
 enum class HandForm : std::uint8_t {
-  kNone,      ///< it touches nothing
+  kNone,      ///< no contact
   kKey,       ///< a hand that moves something else
-  kHammer,    ///< it strikes with felt, or flies
-  kFinger,    ///< it presses with a plain contact
-  kPlectrum,  ///< it plucks
-  kBow,       ///< it rubs
+  kHammer,    ///< strikes with felt, or flies
+  kFinger,    ///< presses with a plain contact
+  kPlectrum,  ///< plucks
+  kBow,       ///< rubs
 };
 
 struct HandBody {
   HandForm form = HandForm::kNone;
-  /// From it to what it touches, along x of its section if it moves along x alone; length 1.
+  /// Direction to the touched module, along x of its section if it moves along x alone; length 1.
   Eigen::Vector3f towards = Eigen::Vector3f::UnitX();
-  /// Along the string, bar or surface that it touches, at right angles to `towards`; length 1.
+  /// Direction along the touched string, bar or surface, at right angles to `towards`; length 1.
   Eigen::Vector3f along = Eigen::Vector3f::UnitY();
 };
 

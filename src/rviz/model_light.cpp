@@ -34,7 +34,7 @@ const Tint kHot(1.0F, 0.93F, 0.55F);
 const Tint kCool(0.10F, 0.25F, 1.0F);
 const Tint kCold(0.55F, 0.90F, 1.0F);
 
-/// From nothing over orange to a light yellow; below zero over blue to a light one.
+/// Colour of a glow: from nothing over orange to light yellow; below zero over blue to light blue.
 Tint heat(float glow) {
   constexpr float kHalf = 0.5F;
   const Tint& weak = glow < 0.0F ? kCool : kWarm;

@@ -24,7 +24,7 @@ class ModelLight {
   /// \param eye  of the camera \param middle  of what it looks at \param up  all of frame `model`
   ModelLight(const Eigen::Vector3f& eye, const Eigen::Vector3f& middle, const Eigen::Vector3f& up);
 
-  /// On a surface with this normal of any length, at a place: about 0.3...1.2.
+  /// Brightness of a surface with this normal of any length, at a place: about 0.3...1.2.
   float on(const Eigen::Vector3f& normal, const Eigen::Vector3f& place) const;
 
  private:
@@ -32,7 +32,7 @@ class ModelLight {
   Eigen::Vector3f to_light_;  // of length 1
 };
 
-/// Red, green, blue, alpha in the order of the memory, 8 bits each.
+/// Colour with red, green, blue, alpha in the order of the memory, 8 bits each.
 /// \param light  see ModelLight \param glow  -1...1, on top of the light: warm, or cold below 0
 /// \param is_stale  whether it is greyed, as nothing is known of its motion
 std::uint32_t colourOf(const Tint& tint, float light, float glow, bool is_stale);

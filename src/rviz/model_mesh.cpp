@@ -35,7 +35,7 @@ class AcrossRow {
     }
   }
 
-  /// To be called for 0, 1, 2...
+  /// Moves to joint i; to be called for 0, 1, 2... in order.
   void moveTo(std::size_t i) {
     along_ = along(i);
     const Eigen::Vector3f turned = across_ - across_.dot(along_) * along_;

@@ -15,15 +15,15 @@
 
 namespace ergotic::panel {
 
-/// As the renderer has it: 16 bytes.
+/// Vertex in the format of the renderer: 16 bytes.
 struct MeshVertex {
   float x, y, z;         ///< m, frame `model`
   std::uint32_t colour;  ///< see colourOf
 };
 
-/// How a mesh is looked at.
+/// View of a mesh.
 struct MeshView {
-  Eigen::Vector3f eye = Eigen::Vector3f::Zero();  ///< of the camera, frame `model`
+  Eigen::Vector3f eye = Eigen::Vector3f::Zero();  ///< position of the camera, frame `model`
   bool by_section = false;                        ///< colours of sections, not of looks
   bool is_stale = false;                          ///< greyed
 };

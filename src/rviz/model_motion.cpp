@@ -20,8 +20,8 @@ constexpr float kLeastM = 2e-6F;       // below which nothing is seen to glow
 constexpr float kLeastStrain = 1e-4F;  // of a link
 constexpr float kLeastSpeed = 6e-5F;   // m/s, the same at 30 states per second
 
-/// Each kind is compared with its own: a hammer that flies would outshine the string that it has
-/// struck, and the string the soundboard.
+/// Kinds of modules for the scale of the glow. Each kind has a scale of its own: a hammer that
+/// flies would outshine the string that it has struck, and the string the soundboard.
 constexpr std::uint32_t kKinds = 3;
 std::uint32_t kindOf(ModuleLook look) {
   switch (look) {

@@ -12,11 +12,11 @@
 
 namespace ergotic::panel {
 
-/// What makes a module glow.
+/// Quantity that makes a module glow.
 enum class GlowBy : std::uint8_t {
-  kSpeed,         ///< from one state to the next, m/s
-  kDisplacement,  ///< from rest, m
-  kForce,         ///< how far it is from the mean of its neighbours, which pull it back, m
+  kSpeed,         ///< speed from one state to the next, m/s
+  kDisplacement,  ///< distance from rest, m
+  kForce,         ///< distance from the mean of the neighbours, which pull it back, m
   kEnergy,        ///< square of the speed, m^2/s^2
   kTension,       ///< how much longer its links are than at rest, as a share; negative: shorter. Of
                   ///< modules that move along x alone, how steep they are, whichever way
@@ -27,14 +27,14 @@ enum class GlowBy : std::uint8_t {
 /// was not taken shortly before the structure was sent, which those of an earlier model are.
 bool belongs(const ModelState& state, const ModelStructure& structure);
 
-/// Where the modules of a model are drawn, and how much they glow. Thread: one
+/// Drawn positions and glow of the modules of a model. Thread: one
 class ModelMotion {
  public:
   ModelMotion() = default;
   /// \pre isConsistent(structure)
   ModelMotion(const ModelStructure& structure, const ModelShape& shape);
 
-  /// \param zoom  `display_zoom` of Handles \param gain  of displacements beside it
+  /// \param zoom  `display_zoom` of Handles \param gain  additional gain of displacements
   void setScale(double zoom, double gain);
   void glowBy(GlowBy quantity);
   /// \pre belongs(state, structure)

@@ -35,7 +35,7 @@ class ShapeFinder {
 
  private:
   bool isFree(std::size_t module) const { return parts_[module] == kNoPart && !is_mode_[module]; }
-  /// What bodies are made of; hands and points only touch them.
+  /// Whether a module belongs to a body; hands and points only touch bodies.
   bool isOfBody(std::size_t module) const {
     const std::uint8_t type = structure_.module_types[module];
     return type == ModelStructure::MASS || type == ModelStructure::CELL ||
@@ -98,7 +98,8 @@ class ShapeFinder {
       addRow(std::move(row), is_bar ? ModuleLook::kBar : ModuleLook::kString);
     }
   }
-  /// From one ground to another, as a stiff string is; bars are clamped by two grounds, or free.
+  /// Whether a row spans from ground to ground, as a stiff string; bars are clamped by two grounds,
+  /// or free.
   bool isSpanned(const ModuleIndices& row) const {
     const auto isGround = [&](std::size_t i) {
       return structure_.module_types[row[i]] == ModelStructure::GROUND;

@@ -35,7 +35,7 @@ Solid icosahedron() {
   return solid;
 }
 
-/// Each triangle becomes four.
+/// Divides each triangle into four.
 Solid subdivided(Solid solid) {
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> middles;
   const auto middleOf = [&](std::uint32_t a, std::uint32_t b) {

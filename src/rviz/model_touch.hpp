@@ -8,7 +8,7 @@
 
 namespace ergotic::panel {
 
-/// How a link touches, if it is none that holds two modules together for good.
+/// Kind of contact of a link; none if the link holds two modules together permanently.
 enum class Touch : std::uint8_t {
   kNone,    ///< a spring, a damper, a table of any form
   kStrike,  ///< felt and its like
@@ -17,7 +17,8 @@ enum class Touch : std::uint8_t {
   kRub,  ///< a bow, friction
 };
 
-/// By the name of the law of each link. \return [links]; kNone where the structure tells no law
+/// Returns the kind of contact of each link, by the name of its law. \return [links]; kNone where
+/// the structure has no law
 std::vector<Touch> touchesOf(const ModelStructure& structure);
 
 }  // namespace ergotic::panel

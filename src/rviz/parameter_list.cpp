@@ -77,7 +77,7 @@ ParameterRow::ParameterRow(const Parameters& parameters,
   offerToLearn(learn);
 }
 
-/// By a right click on the name, the value or the slider.
+/// Adds a context menu to the row, by right click on the name, the value or the slider.
 void ParameterRow::offerToLearn(const std::function<void(const std::string&)>& learn) {
   auto* action = adopted<QAction>("Learn a MIDI controller", this);
   QObject::connect(action, &QAction::triggered, this, [this, learn] { learn(name_); });

@@ -24,10 +24,10 @@ class ParameterRow : public QWidget {
                const std::function<void(const std::string&)>& learn,
                QWidget* parent);
 
-  /// What the station says; passed over while the player moves the slider.
+  /// Takes the station's value; ignored while the player moves the slider.
   void follow(double value, double now_s);
   void toDefault();
-  /// What shall be sent now. \param now_s  of a clock that never goes back, s
+  /// Value to be sent now, if any. \param now_s  of a clock that never goes back, s
   std::optional<double> take(double now_s);
 
   const std::string& name() const { return name_; }
@@ -51,7 +51,7 @@ class ParameterRow : public QWidget {
   bool was_moved_ = false;
 };
 
-/// All parameters of the scene that plays.
+/// List of the parameters of the scene that plays.
 class ParameterList : public QScrollArea {
  public:
   /// \param learn  gets the name of a parameter that a MIDI controller shall move
@@ -59,7 +59,7 @@ class ParameterList : public QScrollArea {
 
   void follow(const Parameters& parameters, double now_s);
   void toDefaults();
-  /// \param send  gets names and values that shall be sent now
+  /// \param send  gets names and values to be sent now
   void send(const std::function<void(const std::string&, double)>& send, double now_s);
   /// The keyboard moves the first slider from now on.
   void takeFocus();

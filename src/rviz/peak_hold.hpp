@@ -7,8 +7,8 @@
 
 namespace ergotic::panel {
 
-/// The largest of what came in the last second, for each of several values: nobody reads numbers
-/// that change sixty times a second, and a pluck is over before it is seen.
+/// Maxima of several values over the last second: numbers that change sixty times a second cannot
+/// be read, and a pluck is over before it is seen.
 class PeakHold {
  public:
   static constexpr double kHoldS = 1.0;

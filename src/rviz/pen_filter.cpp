@@ -5,7 +5,7 @@
 
 namespace ergotic::panel {
 
-/// A pen that is lifted pushes nothing back: what it held is let go of.
+/// Handles events of the pen. A pen that is lifted pushes nothing back: its handle is released.
 bool PenFilter::eventFilter(QObject* /*watched*/, QEvent* event) {
   if (event->type() == QEvent::TabletRelease) {
     pressure_ = 0.0;

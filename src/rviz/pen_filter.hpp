@@ -9,13 +9,14 @@ class QEvent;
 
 namespace ergotic::panel {
 
-/// An event filter that hears how hard the pen of a graphics tablet presses on a widget. The events
-/// go on: Qt makes those of a mouse of them, as long as nobody accepts them. Thread: of the window
+/// An event filter that measures the pressure of a graphics tablet's pen on a widget. It passes the
+/// events on: Qt makes mouse events of them, as long as they are not accepted. Thread: of the
+/// window
 class PenFilter : public QObject {
  public:
-  static constexpr double kDepthM = 0.02;  ///< by which the hardest press goes deeper than none
+  static constexpr double kDepthM = 0.02;  ///< depth of full pressure below none
 
-  /// \param pushed  is told by how much deeper the pen presses than before, m; below 0: less deep
+  /// \param pushed  gets the change of the pen's depth, m; below 0: less deep
   explicit PenFilter(std::function<void(double depth_m)> pushed) : pushed_(std::move(pushed)) {}
 
   bool eventFilter(QObject* watched, QEvent* event) override;

@@ -80,7 +80,7 @@ QPushButton* PresetRow::addButton(const QString& text, const QString& tip) {
   return button;
 }
 
-/// What somebody has written stays there, until another scene plays.
+/// Shows the presets; text that somebody has entered stays until another scene plays.
 void PresetRow::show(const Presets& presets, bool is_known) {
   if (presets.scene != scene_ || presets.names != shown_) {
     const QString written = presets.scene == scene_ ? names_->currentText() : QString();

@@ -19,7 +19,7 @@ namespace ergotic::panel {
 /// seconds; the last change of parameters is undone.
 class PresetRow : public QWidget {
  public:
-  /// What a player asks for.
+  /// Callbacks for a player's requests.
   struct Acts {
     std::function<void(const std::string& name)> keep;
     std::function<void(const std::string& name, double seconds)> recall;
@@ -27,7 +27,7 @@ class PresetRow : public QWidget {
   };
   PresetRow(Acts acts, QWidget* parent);
 
-  /// \param is_known  else nothing can be asked for
+  /// \param is_known  false: disables all requests
   void show(const Presets& presets, bool is_known);
   void undo() { undo_->click(); }
   /// The keyboard names a preset from now on.

@@ -54,7 +54,7 @@ std::string readWhole(const std::filesystem::path& path) {
   return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
 }
 
-/// What notes do, by the comment on top of the map beside a scene.
+/// Description of the notes, from the comment on top of the map beside a scene.
 std::string notesOf(const std::filesystem::path& scene) {
   const std::filesystem::path map = scene.parent_path() / "maps" / scene.stem().concat(".yaml");
   const std::string comment = leadingComment(readWhole(map));

@@ -8,10 +8,10 @@ namespace ergotic::panel {
 
 /// An instrument that can be chosen.
 struct SceneEntry {
-  std::string model;  ///< for `load_model`: path, or path#variant
-  std::string name;   ///< as `status.model` says when it plays
-  std::string title;  ///< for the list
-  std::string about;  ///< what it is, in words; may be empty
+  std::string model;  ///< argument of `load_model`: path, or path#variant
+  std::string name;   ///< name as `status.model` gives it
+  std::string title;  ///< title in the list
+  std::string about;  ///< description; may be empty
   /// Path of what it looks like, `pictures/NAME.png` beside a scene `NAME.yaml`; empty: none is
   /// there
   std::string picture;
@@ -22,11 +22,11 @@ struct SceneEntry {
 /// \param path  where it was read
 std::vector<SceneEntry> scenesOf(const std::string& path, const std::string& text);
 
-/// All scenes (`*.yaml`) of some folders, not of those below, by their titles. What cannot be read
-/// is left out.
+/// Scenes (`*.yaml`) of some folders, not of their subfolders, sorted by title. Files that cannot
+/// be read are left out.
 std::vector<SceneEntry> scenesIn(const std::vector<std::string>& folders);
 
-/// The comment that a text begins with, as one line; without what it says to machines.
+/// Comment at the begin of a text, as one line; without its parts for programs.
 std::string leadingComment(const std::string& text);
 
 }  // namespace ergotic::panel

@@ -60,7 +60,7 @@ void ScopeWidget::paintEvent(QPaintEvent* /*event*/) {
   paintSpectra(painter, {half + kGap, 0, width() - half - kGap, height()});
 }
 
-/// All by one scale, and from one place on: that of the first.
+/// Paints all waves with one scale and one begin: that of the first channel.
 void ScopeWidget::paintWaves(QPainter& painter, const QRect& box) const {
   painter.setPen(palette().color(QPalette::Mid));
   const double middle = 0.5 * box.height();

@@ -5,8 +5,8 @@
 
 namespace ergotic::panel {
 
-/// From the range of a parameter to the steps of a slider and back. Ranges of more than two decades
-/// above zero are logarithmic: each step is the same ratio then.
+/// Map from the range of a parameter to the steps of a slider and back. Ranges of more than two
+/// decades above zero are logarithmic: each step is the same ratio then.
 class SliderScale {
  public:
   static constexpr int kSteps = 1000;

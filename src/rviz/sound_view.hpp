@@ -15,7 +15,7 @@ std::vector<double> spectrumOf(const std::vector<float>& block);
 struct SpectrumScale {
   static constexpr double kLowestHz = 30.0;
   static constexpr double kHighestHz = 20000.0;
-  static constexpr double kLowestDb = -90.0;  ///< of full scale
+  static constexpr double kLowestDb = -90.0;  ///< relative to full scale
 
   /// \return 0...1 for a frequency between the lowest and the highest
   static double shareOf(double hz);
@@ -26,8 +26,8 @@ struct SpectrumScale {
 /// \param rate_hz  of the block that the spectrum is of
 std::vector<double> columnsOf(const std::vector<double>& spectrum, double rate_hz, int columns);
 
-/// Where a picture of a wave begins, so that one that repeats stands still: at the steepest rise
-/// through zero of those samples after which `shown` more are there. 0 if there is none.
+/// Begin of a wave's picture, at which a periodic wave stands still: the steepest rise through zero
+/// of those samples after which `shown` more follow. 0 if there is none.
 std::size_t beginOfWave(const std::vector<float>& block, std::size_t shown);
 
 }  // namespace ergotic::panel

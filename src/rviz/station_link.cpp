@@ -47,7 +47,7 @@ std::string timeOfDay() {
 
 }  // namespace
 
-/// What the listening thread and the window share.
+/// State shared by the listening thread and the window.
 struct StationLink::Shared {
   Shared(std::string name, std::string models_folder)
       : station(std::move(name)), models(std::move(models_folder)) {}
@@ -92,7 +92,7 @@ namespace {
 class Listener {
  public:
   explicit Listener(std::shared_ptr<StationLink::Shared> shared) : shared_(std::move(shared)) {}
-  /// Nothing of ROS outlives the thread: who waits for it may end the process.
+  /// Releases all of ROS before the thread ends, as the process may end after that.
   ~Listener() {
     ::ros::Publisher parameter;
     ::ros::Publisher volume;
@@ -194,7 +194,7 @@ class Listener {
     shared_->news.hears_sound = true;
   }
 
-  /// The station copies its sound only for those who listen.
+  /// Subscribes to the sound if it is wanted; the station copies it only for subscribers.
   void watchSound() {
     bool is_wanted = false;
     {
@@ -303,7 +303,7 @@ class Listener {
     ++shared_->news.scenes_version;
   }
 
-  /// Those of the parameter `~models`, asked for once.
+  /// Folders of the parameter `~models`, which is asked for once.
   const std::vector<std::string>& modelFolders() {
     if (folders_.empty() && !::ros::param::get("~models", folders_)) {
       folders_ = {::ros::param::param<std::string>("~models", shared_->models)};
@@ -311,7 +311,7 @@ class Listener {
     return folders_;
   }
 
-  /// Of files and of when they were written.
+  /// Fingerprint of the folders: files and their times of modification.
   static std::string tracesOf(const std::vector<std::string>& folders) {
     std::vector<std::string> traces;
     for (const std::string& folder : folders) {

@@ -18,16 +18,16 @@
 
 namespace ergotic::panel {
 
-/// What is known of a station.
+/// Latest data of a station.
 struct News {
   Status status;
-  double age_s = -1.0;  ///< of the status, s; negative: none came yet
+  double age_s = -1.0;  ///< age of the status, s; negative: none came yet
   bool has_master = true;
   std::vector<double> forces;       ///< [slices] as sent to the device, N
   std::vector<double> peaks;        ///< [slices] their largest sizes in the last second, N
   double force_limit = 20.0;        ///< N per slice
-  std::vector<double> levels;       ///< [outputs] of full scale
-  std::vector<double> level_peaks;  ///< [outputs] in the last second
+  std::vector<double> levels;       ///< [outputs] relative to full scale
+  std::vector<double> level_peaks;  ///< [outputs] maxima of the last second
   double volume = 1.0;              ///< master volume, 0...1
   bool is_limited = false;          ///< the limiter turned the sound down just now
   bool hears_sound = false;
@@ -37,7 +37,7 @@ struct News {
   Takes takes;
   std::size_t takes_version = 0;
   Presets presets;
-  std::size_t device_version = 0;  ///< of its URDF; 0: none came
+  std::size_t device_version = 0;  ///< version of its URDF; 0: none came
   std::vector<SceneEntry> scenes;
   std::size_t scenes_version = 0;
   std::string log;
@@ -46,14 +46,14 @@ struct News {
   std::size_t answers = 0;
 };
 
-/// One station, by its messages and services. All that may wait for a station or a ROS master is
-/// done by threads of its own. A station that dies and comes back is heard again, also over another
-/// master. Thread: the one of the window. Nothing here waits, but the destructor, for some seconds
-/// if a master hangs.
+/// Link to one station, by its messages and services. Threads of its own do all work that may wait
+/// for a station or a ROS master. The link reconnects to a station that is started again, also over
+/// another master. Thread: the one of the window. Nothing here waits, but the destructor, for some
+/// seconds if a master hangs.
 class StationLink {
  public:
   /// \param station  its full name
-  /// \param models   folder of scenes, where the parameter `~models` names no others
+  /// \param models   folder of scenes, if the parameter `~models` names no others
   StationLink(const std::string& station, const std::string& models);
   ~StationLink();
   StationLink(const StationLink&) = delete;
@@ -65,22 +65,23 @@ class StationLink {
   void refresh(News& news) const;
 
   void engage();
-  /// Also of an Engage that is on its way.
+  /// Stops force, and cancels an Engage that is on its way.
   void stop();
-  /// By the service and by the topic, whichever comes first.
+  /// Stops by the service and by the topic, whichever comes first.
   void emergencyStop();
   void recover();
   /// \param model  path, path#variant
   void load(const std::string& model, const std::string& title);
-  /// The scene that plays, from its file.
+  /// Reloads the scene that plays, from its file.
   void reload();
-  /// By the topic: of several values that come at once, the station takes the newest.
+  /// Sets a parameter by the topic: of several values that come at once, the station takes the
+  /// newest.
   void setParameter(const std::string& name, double value);
-  /// The next MIDI controller that moves shall move this parameter.
+  /// Binds the next MIDI controller that moves to this parameter.
   void learnController(const std::string& parameter);
   /// \param volume  0...1
   void setVolume(double volume);
-  /// Whether the station shall send what the outputs play.
+  /// Sets whether the station sends the signal of the outputs.
   void watchSound(bool is_wanted);
 
   void record();

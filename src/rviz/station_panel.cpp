@@ -27,13 +27,13 @@ constexpr double kSilence = 1e-4;  // of full scale
 const char kUsualStation[] = "/station";
 const char kSetting[] = "Station";
 
-/// Of all panels: an emergency stop means every station that this window shows.
+/// List of all panels: an emergency stop applies to every station that this window shows.
 std::vector<StationPanel*>& panels() {
   static std::vector<StationPanel*> all;
   return all;
 }
 
-/// A wheel that passes by must not load another instrument.
+/// Combo box that ignores the wheel, so that scrolling does not load another instrument.
 class Chooser : public QComboBox {
  protected:
   void wheelEvent(QWheelEvent* event) override { event->ignore(); }
@@ -359,7 +359,7 @@ void StationPanel::bind(const QKeySequence& keys,
   }
 }
 
-/// No letters: these are of rviz's tools.
+/// Binds function keys; letters are shortcuts of rviz's tools.
 void StationPanel::addKeys() {
   const auto on_all = [](void (StationLink::*act)()) {
     for (StationPanel* panel : panels()) {
@@ -490,7 +490,8 @@ void StationPanel::showMeters() {
   rates_->show(stale ? "" : ratesText(status));
 }
 
-/// The slider is as the station says, but while somebody moves it, and while it is silent.
+/// Shows levels and volume. The slider follows the station, unless a user moves it or the station
+/// is silent.
 void StationPanel::showSound() {
   const bool is_known = !isStale() && news_.hears_sound;
   sound_->show(news_.levels, news_.level_peaks, is_known);

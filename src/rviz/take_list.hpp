@@ -14,7 +14,7 @@ namespace ergotic::panel {
 /// F2 renames it, Space stars it and Delete throws it away; so does the menu of the right button.
 class TakeList : public QTreeWidget {
  public:
-  /// What a player asks for.
+  /// Callbacks for a player's requests.
   struct Acts {
     std::function<void(const std::string& name)> play;
     std::function<void(const std::string& name, const std::string& new_name)> rename;
@@ -23,7 +23,7 @@ class TakeList : public QTreeWidget {
   };
   TakeList(Acts acts, QWidget* parent);
 
-  /// A new take is chosen, or else the one that was.
+  /// Shows the takes; selects a new take if there is one, and keeps the selection otherwise.
   void show(const Takes& takes);
   /// \return name of the one that is chosen; empty: there is none
   std::string chosen() const;

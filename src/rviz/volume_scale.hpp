@@ -7,9 +7,9 @@
 namespace ergotic::panel {
 
 constexpr double kVolumeDecibels = 60.0;  ///< below full scale, where meters and the slider end
-constexpr int kVolumeSteps = 120;         ///< of half a decibel
+constexpr int kVolumeSteps = 120;         ///< half a decibel each
 
-/// Where a level is on a meter, 0...1. \param level  of full scale
+/// Position of a level on a meter, 0...1. \param level  relative to full scale
 inline double shareOfDecibels(double level) {
   const double floor = std::pow(10.0, -kVolumeDecibels / 20.0);
   return level > floor ? std::min(1.0 + std::log10(level) * 20.0 / kVolumeDecibels, 1.0) : 0.0;

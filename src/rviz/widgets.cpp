@@ -219,7 +219,8 @@ void ForceMeter::paintEvent(QPaintEvent* /*event*/) {
   }
 }
 
-/// From above: newtons, a bar from the middle with marks at the peak, the number of the slice.
+/// Paints a column, from above: newtons, a bar from the middle with marks at the peak, the number
+/// of the slice.
 void ForceMeter::paintColumn(QPainter& painter, const QRect& column, std::size_t slice) const {
   const int line = QFontMetrics(painter.font()).height();
   const QRect track = column.adjusted(2, line + 1, -2, -line - 1);

@@ -79,14 +79,14 @@ class ForceMeter : public QWidget {
   bool is_known_ = false;
 };
 
-/// How loud the outputs are, a bar each over 60 dB, with a mark at the peak of the last second.
+/// Level meter of the outputs, a bar each over 60 dB, with a mark at the peak of the last second.
 class SoundMeter : public QWidget {
  public:
   explicit SoundMeter(QWidget* parent);
 
-  /// \param levels    [outputs] of full scale
-  /// \param peaks     [outputs] of the last second
-  /// \param is_known  else it is drawn without bars
+  /// \param levels    [outputs] relative to full scale
+  /// \param peaks     [outputs] maxima of the last second
+  /// \param is_known  false: it is drawn without bars
   void show(const std::vector<double>& levels, const std::vector<double>& peaks, bool is_known);
 
  protected:

@@ -137,7 +137,7 @@ void AudioBridge::process(const rt::Period& period) noexcept {
   }
 }
 
-/// From frames to ticks as `dueNs` has it: what is between two messages is kept to the frame.
+/// Maps frames to ticks as `dueNs` does: time between messages is preserved to the frame.
 void AudioBridge::noteMidi(const rt::Period& period, const Relation* relation) noexcept {
   for (int i = 0; i < period.midi_messages; ++i) {
     const rt::MidiMessage& message = period.midi[i];
@@ -200,7 +200,7 @@ void AudioBridge::play(const rt::Period& period, const Relation& relation) noexc
   }
 }
 
-/// What the instrument plays and what a take adds to it; where there is no take, the former's bits.
+/// Sum of the instrument's and the take's frame; without a take, the instrument's frame unchanged.
 const float* AudioBridge::mix(const float* live) noexcept {
   float gain = 0.0F;
   const float* const take = takes_->next(gain);
@@ -241,7 +241,7 @@ float AudioBridge::gainOf(const float* frame, int channels) noexcept {
   return volume * gain;
 }
 
-/// After an xrun the host's frame count goes on without having called: those frames are lost.
+/// Counts frames that the host skipped: after an xrun its frame count has advanced without a call.
 void AudioBridge::noteSkipped(const rt::Period& period, const Relation& relation) noexcept {
   const std::int64_t from = std::max(expected_ - relation.offset, relation.first);
   const std::int64_t frames = period.start.frames - relation.offset - from;

@@ -58,8 +58,9 @@ bool Station::submit(const Command& command) {
   return true;
 }
 
-/// Only now, for while no tick runs a device may have the last force still. Whoever makes safe
-/// tells the interlock before the driver: one of the two sees the other.
+/// Re-arms the driver in the tick and not before: while no tick runs, a device may still have the
+/// last force. makeSafe latches the interlock before the driver, so that a concurrent makeSafe
+/// either shows in the ticket here, or reaches the driver after `rearm`.
 void Station::rearm(Ticket asked) noexcept {
   driver_->rearm();
   if (interlock_->ticket() != asked) {
@@ -241,7 +242,7 @@ void Station::takeCoefficients(const Command& command) noexcept {
   handBack(taken);
 }
 
-/// From `glide_`, where the ports were, to where they are now.
+/// Starts the glide of the ports from `glide_`, their former positions, to their present ones.
 void Station::glideFromThere() noexcept {
   const std::vector<double>& there = performer_->positions;
   for (std::size_t i = 0; i < there.size(); ++i) {
@@ -250,8 +251,8 @@ void Station::glideFromThere() noexcept {
   gliding_ = glide_ticks_;
 }
 
-/// What the ports of the present model did under the old rig, they leave in a glide: the model is
-/// not struck by a change of hands.
+/// Replaces the rig. The ports of the present model glide from their positions under the old rig to
+/// those under the new one, so that the model gets no step in position.
 void Station::takeRig(tgr::Rig* next) noexcept {
   Event configured = event(Event::Type::kConfigured);
   stop();
@@ -326,7 +327,8 @@ void Station::tellHold(std::size_t index) noexcept {
   tell(told);
 }
 
-/// Not within a fade: a replay starts at full gain. And no hand waits while much is copied.
+/// No keyframe is taken within a fade, as a replay starts at full gain, nor, if the state is large,
+/// while there is force, as copying takes long.
 bool Station::mayTakeKeyframe() const noexcept {
   const bool is_short = performer_->instrument->stateSize() <= config_.keyframe_bytes_in_force;
   return fade_.isFull() && (is_short || !hasForce());

@@ -17,7 +17,8 @@ void Station::followCalibration() noexcept {
   followInterlock();
 }
 
-/// The switch has to be told again and again: a program that hangs lets go of it.
+/// Follows the deadman switch, which has to be reported again and again: a program that hangs
+/// releases it.
 void Station::followPresence() noexcept {
   if (presence_ticks_ == 0) {
     return;
@@ -111,7 +112,7 @@ void Station::takeForceAway() noexcept {
   force_.fill(0.0);
 }
 
-/// The first reason is the one to tell; later ones find the force latched at zero already.
+/// Reports a fault. Only the first reason is reported; later ones find the force latched at zero.
 void Station::fault(FaultReason reason, int slice) noexcept {
   takeForceAway();
   if (interlock_->read().isLatched()) {

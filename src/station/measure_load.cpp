@@ -33,7 +33,7 @@ bool finish(Performer& p) {
   return !p.instrument->isUnderWay();
 }
 
-/// From the initial state: what is quiet is not asleep there. \return ns of each tick
+/// Runs ticks from the initial state, in which no quiet module is asleep. \return ns per tick
 double batch(Performer& p, int ticks) {
   p.restart();
   const std::int64_t begin = rt::threadCpuNs();

@@ -48,7 +48,7 @@ bool isAllowed(physics::Verdict verdict, const PerformerPolicy& policy) {
   throw RefusedScene(text, certificate.verdict);
 }
 
-/// Every page of the state becomes resident; its content stays.
+/// Makes every page of the state resident; its content stays.
 void warm(Performer& performer) {
   physics::Instrument& instrument = *performer.instrument;
   instrument.saveState(performer.initial.data());

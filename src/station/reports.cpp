@@ -105,14 +105,16 @@ Event Station::event(Event::Type type) const noexcept {
   return told;
 }
 
-/// Tells what may be lost if nobody listens, counted; leaves room for what may not.
+/// Sends an event that may be lost, and counts losses; reserves room for events that may not be
+/// lost.
 void Station::tell(const Event& event) noexcept {
   if (events_.writable() <= config_.command_ring || !events_.push(event)) {
     ++counters_.dropped_records;
   }
 }
 
-/// Never fails: `submit` admits only as many owning commands as `tell` leaves places for.
+/// Sends an event with an object. It never fails: `submit` admits only as many owning commands as
+/// `tell` leaves places for.
 void Station::handBack(const Event& event) noexcept {
   events_.push(event);
 }

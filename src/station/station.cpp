@@ -331,7 +331,8 @@ void Station::movePorts(const Slices& positions) noexcept {
   }
 }
 
-/// One tick on their way; one that takes hold waits for that.
+/// Moves each hold by one tick towards its goal; a hold that attaches in this tick does not move
+/// yet.
 void Station::moveHolds() noexcept {
   for (std::size_t i = 0; i < holds_.size(); ++i) {
     Hold& hold = holds_[i];

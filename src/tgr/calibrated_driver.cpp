@@ -20,7 +20,7 @@ namespace ergotic::tgr {
 namespace {
 
 using Slices = std::array<double, kMaxSlices>;
-/// What the tick goes by.
+/// Calibrations as the tick uses them.
 struct Table {
   std::array<SliceCalibration, kMaxSlices> slices;
   std::array<std::uint32_t, kMaxSlices> renewals{};  // of slices that had a calibration
@@ -155,8 +155,8 @@ class CalibratedDriverOverRaw final : public CalibratedDriver {
     return (bits >> i & 1U) != 0;
   }
 
-  /// A slice whose calibration is another one is away for one exchange: whoever plays lets it come
-  /// back as one that had none, wherever it now is.
+  /// Slices with a new calibration. Each is uncalibrated for one exchange, so that the caller
+  /// treats it like a slice that had no calibration, whatever its position.
   ERGOTIC_REALTIME std::uint64_t takeRenewals() noexcept {
     std::uint64_t renewed = 0;
     const auto& renewals = table_.latest().renewals;

@@ -18,11 +18,11 @@ constexpr scene::Limits kFullScaleLimits{"N", 0.0, 1000.0};
 constexpr scene::Limits kCheckedLimits{"m/N", -1000.0, 1000.0};
 constexpr scene::Limits kErrorLimits{"m", 0.0, 1.0};
 
-/// What zero volts may do to a hand. A device is at zero volts when it is made safe, when its
-/// station dies, and when its power fails, whatever its calibration says.
+/// Largest force at zero volts. A device is at zero volts when it is made safe, when its station
+/// dies, and when its power fails, whatever its calibration says.
 constexpr double kMaxForceAtZeroVoltsN = 0.1;
 
-/// \param of  after the name of a number, as in ` of slice 3`
+/// \param of  text after the name of a number, as in ` of slice 3`
 /// \throws Exception naming number and allowed range, if the numbers do not fit together
 void checkCalibration(const SliceCalibration& calibration, const std::string& of);
 

@@ -153,7 +153,7 @@ class CombinedDriver final : public Driver {
                      [](const auto& a, const auto& b) { return a.time_s < b.time_s; });
     return all;
   }
-  /// All that have a gesture are in step.
+  /// Longest time of all; devices that have a gesture are in step.
   double gestureTime() const noexcept override {
     double longest_s = 0.0;
     for (const auto& driver : drivers_) {

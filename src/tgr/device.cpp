@@ -21,7 +21,7 @@ std::unique_ptr<Driver> makeReplay(const YAML::Node& node, const std::string& pl
   return makeReplayDriver(readPositionsCsv(scene::besideFile(settings.top().word("file"), place)));
 }
 
-/// What goes wrong without a place of its own is told with this one.
+/// Runs an action; an error without a place of its own is reported with this one.
 template <class Action>
 auto at(const std::string& file,
         scene::Place place,

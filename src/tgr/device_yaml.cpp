@@ -14,7 +14,7 @@ namespace {
 using scene::Place;
 using scene::YamlMap;
 
-/// As `virtual`, or a plugin's `package/name`.
+/// Reads the name of a driver, as `virtual`, or a plugin's `package/name`.
 std::string driverName(const YamlMap& map) {
   const std::string name = map.word("driver");
   const auto is_legal = [](char c) {

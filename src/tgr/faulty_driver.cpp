@@ -49,8 +49,8 @@ void requireInjectable(const FaultOrder& order, int slices) {
   }
 }
 
-/// What a device does whose processor is busy: short times are exact, long ones leave the
-/// processor to others.
+/// Delays as a device whose processor is busy: short times are exact, long ones leave the processor
+/// to others.
 ERGOTIC_REALTIME void linger(double seconds) noexcept {
   constexpr std::int64_t kAwakeNs = 1'000'000;
   const std::int64_t start = rt::monotonicNs();

@@ -25,7 +25,7 @@ scene::Scene unscaledPorts(const scene::Scene& scene) {
   return ports;
 }
 
-/// By what the scales of its end-effector multiply what a port resists with.
+/// Factor by which the scales of its end-effector multiply stiffness or damping of a port.
 double scaleOf(const scene::Port& port, const EndEffectors& end_effectors) {
   for (const EndEffectorConfig& config : end_effectors.list) {
     if (std::find(config.ports.begin(), config.ports.end(), port.name) != config.ports.end()) {

@@ -37,7 +37,7 @@ struct Tool {
   std::unique_ptr<Kinematics> kinematics;
   double position_scale = 1.0;
   double force_scale = 1.0;
-  std::uint64_t bits = 0;  ///< of its slices
+  std::uint64_t bits = 0;  ///< bit mask of its slices
   bool is_within = false;
   std::array<int, Kinematics::kMaxSlicesOfOne> slices{};
   std::array<int, Kinematics::kMaxCoordinates> ports{};  ///< -1: none
@@ -136,7 +136,7 @@ class SceneRig final : public Rig {
   std::uint64_t slices_in_use_ = 0;
 };
 
-/// Gives every port and every slice to at most one of those who ask.
+/// Assigns every port and every slice to at most one mover.
 class RigMaker {
  public:
   RigMaker(const scene::Scene& scene, const EndEffectors& end_effectors, int slices)

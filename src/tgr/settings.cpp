@@ -9,7 +9,7 @@
 namespace ergotic::tgr {
 namespace {
 
-/// What drivers are given is yaml-cpp's, as they may be of others.
+/// Converts a yaml-cpp node; drivers get such nodes, as they may be plugins of other authors.
 scene::Node treeOf(const YAML::Node& node) {
   using Kind = scene::Node::Kind;
   const YAML::Mark mark = node.Mark();

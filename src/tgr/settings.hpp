@@ -28,7 +28,7 @@ class Settings {
 
   const scene::YamlMap& top() const noexcept { return top_; }
   const YAML::Node& node() const noexcept { return node_; }
-  /// For `scene::YamlMap`s of maps that are deeper inside.
+  /// Builder for `scene::YamlMap`s of nested maps.
   const scene::SceneBuilder& builder() const noexcept { return builder_; }
 
  private:
@@ -38,7 +38,7 @@ class Settings {
   scene::YamlMap top_;
 };
 
-/// YAML on one line that reads back as the same.
+/// Writes YAML on one line that reads back as the same.
 std::string textInLine(const YAML::Node& node);
 
 }  // namespace ergotic::tgr

@@ -12,8 +12,8 @@
 
 namespace ergotic::tgr {
 
-/// A small push of one slice: the operator asks for it, the tick makes it and tells what became of
-/// it. It ends by itself, and for good when the device may give no force.
+/// A small push of one slice: the operator asks for it, the tick executes it and reports the
+/// result. It ends by itself, and for good when the device may give no force.
 class SlicePush {
  public:
   /// \param delay_ticks  from the exchange that gets a force to the first position that shows it
@@ -28,7 +28,7 @@ class SlicePush {
 
   void begin(int slice, double newtons) noexcept { order({++number_, slice, newtons}); }
   void end() noexcept { order({++number_, kNone, 0.0}); }
-  /// Of the push that was begun last; once.
+  /// Result of the push that was begun last, returned once.
   std::optional<Push> take() noexcept {
     const bool is_new = told_.refresh() && told_.latest().number == number_;
     return is_new ? std::optional(told_.latest().push) : std::nullopt;

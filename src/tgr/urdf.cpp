@@ -28,7 +28,7 @@ const char* const kHead = R"(<?xml version="1.0"?>
   <material name="wood"><color rgba="0.45 0.27 0.13 1"/></material>
 )";
 
-/// As `modelPose`.
+/// Link `model`; its pose is that of `modelPose`.
 const char* const kModel = R"(  <link name="model"/>
   <joint name="model_mount" type="fixed">
     <parent link="tgr_base"/>
@@ -91,7 +91,7 @@ std::string base(int slices) {
          visual(box({0.30, 0.015, 0.025}), {0.0, -side, 0.005}, "brass") + "  </link>\n";
 }
 
-/// From the middle of an octave to the left, in its plane.
+/// Offset of a slice from the middle of an octave to the left, in its plane, m.
 double sliceOffset(int of_octave) {
   return kPitch * (0.5 * (kOctave - 1) - of_octave);
 }
@@ -129,7 +129,7 @@ std::string handle(const EndEffectorConfig& config) {
   return shape;
 }
 
-/// In the frame of the end-effector at rest.
+/// Shape of an end-effector, in its own frame at rest.
 std::string shapeOf(const EndEffectorConfig& config) {
   switch (config.type) {
     case EndEffectorType::kKey:
@@ -179,8 +179,8 @@ Vector3d slicePlace(int index, int slices) {
   return {0.0, kPitch * (0.5 * (slices - 1) - index), 0.01};
 }
 
-/// The instrument stands behind the keyboard; its x (along which strings vibrate) is up, its y runs
-/// along the keyboard.
+/// Pose of the instrument behind the keyboard; its x (along which strings vibrate) is up, its y
+/// runs along the keyboard.
 Eigen::Isometry3d modelPose() {
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
   pose.linear() << 0.0, 0.0, 1.0,  //

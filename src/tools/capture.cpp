@@ -31,7 +31,7 @@ void stopOnSignals() {
 
 using ergotic::tools::Json;
 
-/// How loud the file is: in the report, and in words on stderr.
+/// Adds loudness and true peak of the file to the report, and prints them on stderr.
 void addLevel(const std::string& path, Json& report) {
   const ergotic::tools::SoundLevel level = ergotic::tools::levelOf(path);
   report["loudness_lufs"] = level.loudness ? Json(*level.loudness) : Json();

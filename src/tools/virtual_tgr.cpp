@@ -54,7 +54,7 @@ void declare(CLI::App& app, Options& options) {
       ->capture_default_str();
 }
 
-/// Of the first virtual device in a file.
+/// Reads the first virtual device in a file.
 tgr::VirtualDriverConfig readDevice(const std::string& path) {
   const tgr::StationDevices devices =
       tgr::readDevices(files::readFile(path, scene::kMaxTextBytes), path);

@@ -6,8 +6,9 @@
 #include "ergotic/scene/generate/cut_string.hpp"
 #include "ergotic/scene/scene.hpp"
 
-/// How wrong is what is played, foretold: closed forms where there are any, else what `accuracy`
-/// measures, as a power of the step. All errors are relative: 1 is as much as the right value.
+/// Predicted errors of what is played: closed forms where there are any, else power laws of the
+/// step, fitted to what `accuracy` measures. All errors are relative: 1 is as much as the right
+/// value.
 /// Realtime: no. Thread: any. Source: docs/physics/accuracy.md, "Speed against accuracy".
 namespace ergotic::physics {
 
@@ -31,17 +32,17 @@ double modeError(double angle);
 /// \param mass   reduced, kg
 double contactDuration(double exponent, double stiffness, double mass, double depth);
 
-/// What of a contact is judged.
+/// Quantity of a contact that is judged.
 enum class ContactFigure { kDuration, kPeakForce };
 
-/// \param steps  in the duration of the contact
+/// \param steps  number of steps in the duration of the contact
 double contactError(ContactFigure figure, scene::Scheme scheme, double exponent, double steps);
 
-/// Sound of a contact across two rates whose slower end is held, bare or behind a chaplet.
+/// Contact across two rates whose slower end is held (zero-order hold), bare or behind a chaplet.
 /// \param slow_steps  in the duration of the contact
 double heldContactError(bool filtered, double slow_steps);
 
-/// A hand that moves at this frequency: what is heard of its steps.
+/// Error of the sound by the steps of a hand's motion at this frequency.
 /// \param slow_steps  in a period
 double handError(scene::Coupling coupling, double slow_steps);
 
@@ -49,7 +50,7 @@ double handError(scene::Coupling coupling, double slow_steps);
 /// \param steps  in a period
 double bowError(scene::Scheme scheme, double steps);
 
-/// What single precision adds to a pitch or a duration, and to a whole sound.
+/// Errors by single precision, of a pitch or a duration, and of a whole sound.
 constexpr double kFloatPitchError = 1e-6;
 constexpr double kFloatSoundError = 2e-4;
 

@@ -10,27 +10,27 @@
 
 namespace ergotic::physics {
 
-/// What a link that is no part of a body has of its mode.
+/// Influence of a link that is no part of a body on the body's mode.
 struct Influence {
   std::string link;
-  double cents = 0.0;    ///< that it pulls the pitch up, to first order; below 0: down
-  double of_loss = 0.0;  ///< of what the mode loses, 0...1
+  double cents = 0.0;    ///< change of the pitch, to first order; below 0: down
+  double of_loss = 0.0;  ///< share of the mode's losses, 0...1
 };
 
-/// How a body of a scene sounds in its company, beside what the scene asks of it.
+/// Pitch and decay of a body in the whole scene, compared with those that the scene asks for.
 struct HeardBody {
   std::string name;
   double asked_hz = 0.0;
   double hz = 0.0;
-  double cents = 0.0;  ///< from what is asked
+  double cents = 0.0;  ///< deviation from the pitch that is asked for
   double t60_s = 0.0;  ///< infinite without losses
-  /// That are heard: half a cent, or a tenth of the loss; the largest first.
+  /// Audible influences: half a cent, or a tenth of the loss; the largest first.
   std::vector<Influence> influences;
 };
 
 struct HeardBodies {
   std::vector<HeardBody> bodies;
-  std::vector<AskedPitch> missing;  ///< no mode of theirs is within a semitone
+  std::vector<AskedPitch> missing;  ///< bodies without a mode within a semitone
 };
 
 /// \return the bodies that ask for a pitch, by the partial that they ask it of
@@ -44,15 +44,15 @@ HeardBodies listenTo(const scene::Scene& scene, const Rates& rates);
 struct Wish {
   enum class Kind { kPitch, kDecay, kMargin };
   Kind kind = Kind::kPitch;
-  std::string body;    ///< of pitch and decay
+  std::string body;    ///< body, of pitch and decay
   double value = 0.0;  ///< Hz, s of T60, or the margin of the certificate
 };
 
-/// What one parameter does for a wish, the others as they are.
+/// Effect of one parameter on a wish, the others as they are.
 struct Move {
   std::string parameter;
-  std::optional<double> to;  ///< its value for which the wish comes true; none within its range
-  double lowest = 0.0;       ///< of the figure over the range
+  std::optional<double> to;  ///< value for which the wish comes true; none within its range
+  double lowest = 0.0;       ///< lowest figure over the range
   double highest = 0.0;
 };
 

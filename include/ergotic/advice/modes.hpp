@@ -10,21 +10,21 @@
 
 namespace ergotic::physics {
 
-/// Which modes of a scene are wanted.
+/// Range of the wanted modes of a scene.
 struct ModeWindow {
-  double from_hz = 0.0;  ///< 0: from the lowest on, motions as a whole counted
+  double from_hz = 0.0;  ///< 0: from the lowest on, rigid-body motions included
   double to_hz = std::numeric_limits<double>::infinity();
-  int most = 20;  ///< the lowest of them, >= 1
+  int most = 20;  ///< largest number, lowest modes first, >= 1
 };
 
-constexpr int kMostModes = 2000;  ///< that can be asked for
+constexpr int kMostModes = 2000;  ///< largest number that can be asked for
 
-/// What a link has of a mode, 0...1.
+/// Share of a link in a mode, 0...1.
 struct LinkShare {
   int lia = -1;          ///< index in Scene::lias, or
   int bend = -1;         ///< in Scene::bends; both -1: springs and losses of the modules themselves
   double of_pull = 0.0;  ///< potential energy: without it the pitch were lower by half of that
-  double of_loss = 0.0;  ///< of what the mode loses
+  double of_loss = 0.0;  ///< share of the mode's losses
 };
 
 /// A mode of the linear(ised) scene, as it is stepped.
@@ -45,13 +45,13 @@ struct SceneMode {
   /// it, N/(m sqrt(kg)). [Scene::outputs], without their gains.
   std::vector<double> at_outputs;
   std::vector<double> at_points;  ///< the same at SceneModes::points
-  std::vector<LinkShare> links;   ///< that have a thousandth of one or the other
+  std::vector<LinkShare> links;   ///< links with at least a thousandth of either
   std::vector<double> in_asked;   ///< [SceneModes::asked] its kinetic energy in that body, 0...1
   int asked = -1;                 ///< index in SceneModes::asked
-  double cents = 0.0;             ///< from that
+  double cents = 0.0;             ///< deviation from that pitch
 };
 
-/// What the scene asks a body to sound at.
+/// Pitch that the scene asks of a body.
 struct AskedPitch {
   std::string body;
   int partial = 1;
@@ -67,13 +67,13 @@ struct RigidMotions {
 
 struct SceneModes {
   std::vector<SceneMode> modes;  ///< by frequency
-  /// Of all modes in the window, motions as a whole not counted: by Sylvester's law of inertia.
+  /// Number of all modes in the window, without rigid-body motions: by Sylvester's law of inertia.
   int counted = 0;
   bool is_certain = true;  ///< the counts are beyond the rounding of their factors
   std::vector<RigidMotions> rigid;
-  std::vector<std::string> points;  ///< places between modules that links or hands act on
+  std::vector<std::string> points;  ///< points between modules that links or hands act on
   std::vector<AskedPitch> asked;
-  std::vector<std::string> notes;  ///< what is not covered
+  std::vector<std::string> notes;  ///< parts of the scene that are not covered
 };
 
 /// The modes of a scene about the places where its modules rest: its linear links, and the linear

@@ -8,22 +8,22 @@
 
 namespace ergotic::physics {
 
-/// What a position sensor adds to a position, tick by tick.
+/// Noise that a position sensor adds to a position, tick by tick.
 struct SensorNoise {
-  double rms = 0.5e-6;    ///< m, before it is rounded
-  double quantum = 1e-6;  ///< m, to which it is rounded
+  double rms = 0.5e-6;    ///< m, before rounding
+  double quantum = 1e-6;  ///< m, step of rounding
 
-  /// Both together, white, m rms: rounding adds quantum/sqrt(12).
+  /// Total of both, white, m rms: rounding adds quantum/sqrt(12).
   double total() const;
 };
 
-/// What of it comes back to the hand as force, at the device, everything but the slice held.
+/// Force that the noise causes at the hand, at the device, with everything but the slice held.
 struct NoiseFloor {
   int port = 0;             ///< index in Scene::ports
   double position = 0.0;    ///< m rms: SensorNoise::total
   double force = 0.0;       ///< N rms, as the scene is; infinite if a filter is not stable
-  double unfiltered = 0.0;  ///< N rms, were its links on the slice itself
-  double behind = 0.0;      ///< m rms, of what the links see: behind the filter, if there is one
+  double unfiltered = 0.0;  ///< N rms, if its links were on the slice itself
+  double behind = 0.0;      ///< m rms, at the links: behind the filter, if there is one
 };
 
 /// Ports of agents have none.

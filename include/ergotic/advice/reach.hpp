@@ -6,19 +6,19 @@
 
 #include "ergotic/scene/scene.hpp"
 
-/// How far a hand is from what it can touch, before it moves.
+/// Distance between a hand and what it can touch, before it moves.
 ///
-/// Positions are m of the hand, through the scales and offsets of its port: 0 is where it lies as
-/// the scene begins, and what is above is positive. The hand moves alone and so slowly that nothing
-/// swings: what springs hold is where they hold it, by the linear part of their laws at the present
-/// values of the parameters, what hangs on the slice alone goes as far as it does, what may let go
-/// pulls at nothing, and what is not held stays where it starts. In planes and in space what is
-/// held by more than the slice stays, too. What it meets in a scalar section it may push on to
-/// other things: both give way by their springs and by a linear contact between them, other laws
-/// count as hard there. Realtime: no. Source: docs/tools.md, "Reach"
+/// Positions are m of the hand, through the scales and offsets of its port: 0 is its position at
+/// the begin of the scene, and upwards is positive. The hand moves alone and quasi-statically:
+/// modules held by springs are in equilibrium, by the linear part of their laws at the present
+/// values of the parameters; modules that hang on the slice alone move as far as it does; links
+/// that may let go exert no pull; free modules stay where they start. In planes and in space,
+/// modules held by more than the slice stay, too. A module that the hand meets in a scalar section
+/// may be pushed on to others: both give way by their springs and by a linear contact between them;
+/// other laws count as rigid there. Realtime: no. Source: docs/tools.md, "Reach"
 namespace ergotic::physics {
 
-/// What is met by something that the hand pushes ahead, or by what springs join to that.
+/// Contact of a module that the hand pushes ahead, or of one joined to it by springs.
 struct PushedMeeting {
   std::string thing;
   std::string link;
@@ -29,20 +29,20 @@ struct PushedMeeting {
 /// A friction whose normal force a contact is.
 struct Rubbing {
   std::string link;
-  std::string thing;  ///< what is rubbed,
+  std::string thing;  ///< the rubbed thing
   std::string on;     ///< and by what
 };
 
 /// A link that may let go or that begins somewhere, on one side of the hand.
 struct Meeting {
-  std::string thing;           ///< what is met
-  std::string link;            ///< by which
-  const char* law = "";        ///< as reports call it
+  std::string thing;           ///< thing that is met
+  std::string link;            ///< link by which it is met
+  const char* law = "";        ///< name of the law in reports
   std::string by;              ///< the module that meets it: the slice or what goes with it
   bool touches = false;        ///< already at rest, for any force that it may have
   bool is_missed = false;      ///< however far the hand goes along its port
-  double at_m = 0.0;           ///< where it begins; 0 if it touches or is missed
-  std::vector<double> ends_m;  ///< where it ends again: ahead, or on either side if it touches
+  double at_m = 0.0;           ///< begin of the contact; 0 if it touches or is missed
+  std::vector<double> ends_m;  ///< ends of the contact: ahead, or on either side if it touches
   double missed_by_m = 0.0;    ///< m of the model
   std::string waits_for;       ///< the contact that would have to press, and that other hands move
   std::vector<Rubbing> presses;
@@ -61,21 +61,21 @@ struct Hold {
 struct Guide {
   std::string point;
   std::string along;           ///< the string or mesh
-  double fraction = 0.0;       ///< of it, at rest
+  double fraction = 0.0;       ///< position on it at rest, 0...1
   double per_m = 0.0;          ///< fractions for a metre of the hand
-  std::vector<double> ends_m;  ///< where its range ends, below and above; 0 where it is there
+  std::vector<double> ends_m;  ///< ends of its range, below and above; 0 if it is there
 };
 
 struct PortReach {
   int port = 0;
   std::vector<std::string> carries;  ///< modules that go with the slice
-  std::vector<Meeting> meetings;     ///< what touches, what is met by distance, what is missed
+  std::vector<Meeting> meetings;     ///< contacts: touching, met by distance, or missed
   std::vector<Hold> holds;
   std::vector<Guide> guides;
 
-  /// What is met first within the stroke; nullptr: nothing.
+  /// First contact within the stroke; nullptr: none.
   const Meeting* first(double stroke_m) const;
-  /// It is felt or heard nowhere within the stroke: nothing touches, holds or is led.
+  /// Whether the hand has no effect within the stroke: nothing touches, holds or is led.
   bool isIdle(double stroke_m) const;
 };
 
@@ -91,8 +91,8 @@ std::vector<PortReach> reachOf(const scene::Scene& scene,
 /// Ports that a slice moves by itself.
 std::vector<int> portsOfSlices(const scene::Scene& scene);
 
-/// What makers hardly mean, `file:line:col: warning: ...`: slices that meet nothing within their
-/// stroke, or at all.
+/// Warnings about slices that meet nothing within their stroke, or at all, which makers hardly
+/// intend: `file:line:col: warning: ...`.
 std::vector<std::string> reachWarnings(const scene::Scene& scene,
                                        const std::vector<PortReach>& found,
                                        double stroke_m);

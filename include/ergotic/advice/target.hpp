@@ -10,12 +10,12 @@
 
 namespace ergotic::physics {
 
-/// How far playing may be from what the scene means.
+/// Permitted deviation of what is played from what the scene specifies.
 struct Target {
   enum class Unit {
-    kCents,     ///< of pitches and of the durations of contacts
-    kDecibels,  ///< of forces and of whole sounds
-    kPercent,   ///< of all of these
+    kCents,     ///< for pitches and durations of contacts
+    kDecibels,  ///< for forces and whole sounds
+    kPercent,   ///< for all of these
   };
   double value = 0.0;
   Unit unit = Unit::kCents;
@@ -30,7 +30,7 @@ Target targetOf(const std::string& text);
 /// A relative error in a unit, "0.94 cents"; "out of reach" if it is not finite or 1 and more.
 std::string inUnit(double error, Target::Unit unit);
 
-/// What may be changed to meet a target.
+/// Settings that may be changed to meet a target.
 struct Freedom {
   bool audio_rate = true;
   bool gestural_rate = true;
@@ -39,22 +39,22 @@ struct Freedom {
 
 /// A part of a scene, or several that are treated alike: how they fare, and how they would.
 struct Advice {
-  std::string part;       ///< that with the largest error, "string 'a'"
-  std::string figure;     ///< what is judged, "worst of ten partials"
-  int parts = 1;          ///< that this is about
+  std::string part;       ///< part with the largest error, "string 'a'"
+  std::string figure;     ///< quantity that is judged, "worst of ten partials"
+  int parts = 1;          ///< number of parts that this is about
   double present = 0.0;   ///< relative error as it is
   double proposed = 0.0;  ///< and as proposed
-  std::string change;     ///< what is to be changed in the scene; empty: nothing
+  std::string change;     ///< change to be made in the scene; empty: none
   std::string remark;     ///< why not more, or what else it means; may be empty
 };
 
-/// How a scene would be played, and why.
+/// Proposed settings of a scene, and their reasons.
 struct Proposal {
   scene::Scene scene;  ///< with all changes, not settled
   Rates rates;
   Precision precision = Precision::kFloat;
   std::vector<Advice> advice;
-  std::vector<std::string> remarks;  ///< on what was left as it is, and why
+  std::vector<std::string> remarks;  ///< remarks on unchanged settings, and the reasons
   double present_cost = 0.0;  ///< plain steps of modules and links per second, others weighted
   double cost = 0.0;
   bool is_reached = false;  ///< every part that is judged is good enough

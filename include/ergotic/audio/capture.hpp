@@ -12,14 +12,14 @@
 namespace ergotic::audio {
 
 struct CaptureConfig {
-  std::string path;  ///< of the WAV file
+  std::string path;  ///< path of the WAV file
   WavFormat format = WavFormat::kFloat;
   std::vector<std::string> ports;  ///< full names, `client:port`, a channel each
   std::string match;               ///< and all ports matching this regular expression, after these
   std::string server;              ///< empty: $JACK_DEFAULT_SERVER, else `default`
   std::string client = "capture";  ///< name of the recording client
-  double wait_s = 10.0;            ///< for server and ports to appear
-  double seconds = 0.0;            ///< to record; 0: until stopped
+  double wait_s = 10.0;            ///< timeout for server and ports
+  double seconds = 0.0;            ///< duration; 0: until stopped
 };
 
 struct CaptureReport {
@@ -29,7 +29,7 @@ struct CaptureReport {
   std::int64_t dropped = 0;  ///< frames that came and are not in the file: the disk was too slow
                              ///< (zeros instead), or JACK gave two blocks one frame time
   std::int64_t lost = 0;     ///< frames in cycles that JACK lost, zeros in the file
-  std::int64_t xruns = 0;    ///< as JACK counts them
+  std::int64_t xruns = 0;    ///< number by JACK's count
   std::string message;       ///< why it ended before its time, empty: it did not
 };
 

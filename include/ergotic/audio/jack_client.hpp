@@ -11,10 +11,10 @@
 
 namespace ergotic::audio {
 
-/// Of a client at which signals begin and end, as a sound card does; it passes no latency on.
+/// Latencies of a client at which signals begin and end, as a sound card; it passes no latency on.
 struct JackTerminal {
-  std::uint32_t input_latency_frames = 0;   ///< from our inputs out into the world
-  std::uint32_t input_latency_periods = 0;  ///< and as many periods
+  std::uint32_t input_latency_frames = 0;   ///< from our inputs to the world
+  std::uint32_t input_latency_periods = 0;  ///< additional periods
   std::uint32_t output_latency_frames = 0;  ///< from the world to our outputs
 };
 
@@ -22,40 +22,42 @@ constexpr const char* kPhysicalMidi = "physical";
 constexpr const char* kNoMidi = "none";
 
 struct JackConfig {
-  std::string name = "ergotic";  ///< of the client; JACK appends a number if it is taken
+  std::string name = "ergotic";  ///< client name; JACK appends a number if it is taken
   std::string server;            ///< empty: $JACK_DEFAULT_SERVER, else `default`
   int inputs = 0;                ///< ports `in_1`... , 0...kMaxPorts
   int outputs = 0;               ///< ports `out_1`... , 0...kMaxPorts
   bool midi = false;             ///< a port `midi_in`
-  /// What is connected to `midi_in` whenever it appears: kPhysicalMidi, kNoMidi, or all MIDI ports
-  /// with a name or an alias that a regular expression (POSIX extended, no cases) is found in.
+  /// MIDI ports to connect to `midi_in` whenever they appear: kPhysicalMidi, kNoMidi, or all MIDI
+  /// ports with a name or an alias in which a regular expression (POSIX extended, no cases) is
+  /// found.
   std::string midi_connect = kNoMidi;
   bool connect = false;              ///< out_i to the i-th physical playback port, at every start
   std::uint32_t latency_frames = 0;  ///< added between our inputs and outputs, declared to JACK
-  std::vector<std::string> input_names;   ///< of the ports, instead of `in_1`... ; empty: those
+  std::vector<std::string>
+      input_names;  ///< names of the ports, instead of `in_1`... ; empty: those
   std::vector<std::string> output_names;  ///< as above
-  /// What is wired to each port and to it alone, looked after as long as the host lives: a full
-  /// name, `client:port`, or `physical N`, the N-th (1...) physical port. Empty: nothing.
+  /// Exclusive peer of each port, kept connected as long as the host lives: a full name,
+  /// `client:port`, or `physical N`, the N-th (1...) physical port. Empty: none.
   std::vector<std::string> input_peers, output_peers;
   std::optional<JackTerminal> terminal;
 };
 
 constexpr int kMaxPorts = 256;
 
-/// What a JACK host has to say about itself, as of its last look, once a second.
+/// Status of a JACK host at its last look, once a second.
 struct JackStatus {
   bool running = false;  ///< periods are being processed
   bool freewheeling = false;
-  double sample_rate_hz = 0.0;      ///< of the server now or last seen, 0: none yet
+  double sample_rate_hz = 0.0;      ///< present or last sample rate of the server, 0: none yet
   std::uint32_t period_frames = 0;  ///< as above
-  std::int64_t xruns = 0;           ///< since construction
-  std::int64_t starts = 0;          ///< how often periods began to flow
-  std::int64_t looks = 0;           ///< how often all this was looked at
-  bool wired = false;               ///< all peers are connected, and nothing else to them or to us
-  std::uint32_t input_latency_frames = 0;   ///< by JACK: age of what arrives, at most
-  std::uint32_t output_latency_frames = 0;  ///< by JACK: until what leaves is out, at most
+  std::int64_t xruns = 0;           ///< number since construction
+  std::int64_t starts = 0;          ///< number of times that periods began to flow
+  std::int64_t looks = 0;           ///< number of looks at the server
+  bool wired = false;               ///< all peers are connected, and no other ports on either side
+  std::uint32_t input_latency_frames = 0;   ///< by JACK: largest age of arriving samples
+  std::uint32_t output_latency_frames = 0;  ///< by JACK: largest delay of leaving samples
   std::string client;                       ///< name as JACK knows it, empty without a server
-  std::string message;  ///< what is wrong and what is done about it, empty: nothing
+  std::string message;                      ///< error and its remedy, empty: none
 };
 
 /// A supervised JACK client: it is there whenever a server is.
@@ -89,7 +91,7 @@ class JackHost {
   /// Thread: any
   JackStatus status() const;
 
-  /// Does soon what it would do within a second: mends wires, looks for a server. Thread: any
+  /// Repairs connections and looks for a server soon, not only within a second. Thread: any
   void look();
 
   /// Ends its client as if the server had gone, and begins anew with the next look: a fault on

@@ -37,7 +37,7 @@ class WavReader {
   /// \throws Exception with path and reason
   std::int64_t read(double* to, std::int64_t nframes);
 
-  /// All that is left, [frames][channels].
+  /// Reads all remaining frames, [frames][channels].
   /// \throws Exception with path and reason
   std::vector<double> readAll();
 

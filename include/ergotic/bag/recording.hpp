@@ -10,21 +10,21 @@
 #include "ergotic/physics/engine/instrument.hpp"
 #include "ergotic/station/messages.hpp"
 
-/// What a rosbag of a station holds of a performance, as plain data.
+/// Contents of a performance in a station's rosbag, as plain data.
 namespace ergotic::bag {
 
-/// Everything needed to run a model again from the start of tick `tick` on.
+/// State from which a model can be run again from the start of tick `tick` on.
 struct Keyframe {
   std::int64_t tick = 0;
   std::string scene_name;  ///< path or name it was read under
   std::string scene_text;
-  std::string build;  ///< of the program that made the state
+  std::string build;  ///< build of the program that made the state
   physics::Rates rates;
   physics::Precision precision = physics::Precision::kFloat;
   std::string isa;      ///< name of the kernels' level (rt/isa.hpp); this processor may lack it
   int threads = 1;      ///< 1...physics::kMaxThreads
   bool metered = true;  ///< the state holds energy accounts
-  int slices = 0;       ///< of the device
+  int slices = 0;       ///< number of slices of the device
   std::vector<std::uint8_t> state;
   std::vector<double> parameters;
   std::string station_config;  ///< YAML: how the station was started
@@ -38,9 +38,9 @@ struct Stretch {
   std::vector<std::uint32_t> flags;  ///< [ticks] station::GestureTick::Flag
   std::vector<double> positions;     ///< [ticks][slices] m, validated
   std::vector<double> ports_at;      ///< [ticks][ports] m, in the model, as the instrument got them
-  std::size_t block = 0;             ///< for `Recording::load`
+  std::size_t block = 0;             ///< index for `Recording::load`
 
-  /// With their memory, which a vector keeps that is given `{}`.
+  /// Frees the positions with their memory, which a vector would keep if assigned `{}`.
   void forgetPositions() {
     positions = std::vector<double>();
     ports_at = std::vector<double>();
@@ -53,9 +53,9 @@ struct Stretch {
 struct Recording {
   std::vector<Keyframe> keyframes;
   std::vector<Stretch> stretches;
-  std::vector<station::Event> events;  ///< without pointers: what changed the sound, and when
+  std::vector<station::Event> events;  ///< events that changed the sound, without pointers
 
-  /// Brings the positions of a stretch; empty where all are there. \throws Exception
+  /// Loads the positions of a stretch; empty if all are loaded. \throws Exception
   std::function<void(Stretch&)> load;
   void unload(Stretch& stretch) const {
     if (load) {

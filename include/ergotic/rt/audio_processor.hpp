@@ -15,10 +15,10 @@ struct MidiMessage {
   std::array<std::uint8_t, 3> bytes{};
 };
 
-/// What an audio host offers to the engine: nothing of JACK is visible past this file.
+/// One period of an audio host; JACK is not visible outside its implementation.
 ///
-/// The host calls `AudioProcessor::process` from its real-time thread with spans of float
-/// channels, and tells it when it comes and goes.
+/// The host calls `AudioProcessor::process` from its real-time thread with spans of float channels,
+/// and reports when it starts and stops.
 struct Period {
   std::uint32_t nframes = 0;
   FrameTime start;                       ///< frame count and time of the first frame of the period
@@ -29,7 +29,7 @@ struct Period {
   /// [midi_messages] in order. They happened in the period before, at the same offsets.
   const MidiMessage* midi = nullptr;
   int midi_messages = 0;
-  bool wired = true;  ///< all channels are connected as the host was told to connect them
+  bool wired = true;  ///< all channels are connected as requested
 };
 
 class AudioProcessor {

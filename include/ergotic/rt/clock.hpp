@@ -8,7 +8,7 @@ namespace ergotic::rt {
 /// CLOCK_MONOTONIC, ns. Realtime: yes (vDSO).
 std::int64_t monotonicNs() noexcept;
 
-/// What the calling thread has had of processors, ns.
+/// CPU time of the calling thread, ns.
 std::int64_t threadCpuNs() noexcept;
 
 /// Sleeps until an absolute CLOCK_MONOTONIC time; the only system call of a waiting tick.
@@ -39,7 +39,7 @@ class FrameClock {
 
   bool isLocked() const noexcept { return locked_; }
   std::int64_t relocks() const noexcept { return relocks_; }
-  double frameRateHz() const noexcept;  ///< as measured
+  double frameRateHz() const noexcept;  ///< measured frame rate
 
   /// Filtered time at which a frame begins, extrapolated. \pre isLocked(). Realtime: yes
   std::int64_t timeOf(std::int64_t frame) const noexcept;

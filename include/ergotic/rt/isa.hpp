@@ -8,7 +8,7 @@ namespace ergotic::rt {
 
 /// Levels of vector instructions that kernels exist for. All give the same bits.
 enum class Isa {
-  kBaseline,  ///< what every processor of the architecture has: SSE2, NEON
+  kBaseline,  ///< instructions of every processor of the architecture: SSE2, NEON
   kAvx2,
   kAvx512,
 };

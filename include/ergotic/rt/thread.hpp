@@ -30,10 +30,10 @@ Outcome makeRealtime(int priority);
 /// Takes it back: the thread is an ordinary one again. Realtime: no
 void makeOrdinary() noexcept;
 
-/// What `makeRealtime` gave the calling thread; 0: nothing. Realtime: yes
+/// Priority that `makeRealtime` gave the calling thread; 0: none. Realtime: yes
 int realtimePriority() noexcept;
 
-/// Bytes of stack that `prefaultStack` makes resident.
+/// Number of stack bytes that `prefaultStack` makes resident.
 constexpr int kPrefaultBytes = 1 << 18;
 
 /// Touches the next `kPrefaultBytes` of the calling thread's stack so that they are resident.

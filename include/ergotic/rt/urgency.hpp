@@ -5,16 +5,17 @@
 
 namespace ergotic::rt {
 
-/// Whether a thread that others can keep busy may go before ordinary programs: as long as it takes
-/// little of a processor. Else whoever floods it would keep the machine from everything, and, where
-/// the kernel allots real-time threads 95 % of each second, the ticks as well. Thread: one
+/// Decides whether a thread that others can keep busy may have real-time priority: as long as it
+/// uses little of a processor. Otherwise a flood of requests would keep the machine from
+/// everything, and, where the kernel allots real-time threads 95 % of each second, the ticks as
+/// well. Thread: one
 class Urgency {
  public:
-  static constexpr double kShare = 0.25;                  ///< of a processor, that it may take
-  static constexpr std::int64_t kWindowNs = 200'000'000;  ///< in which that is looked at, at least
+  static constexpr double kShare = 0.25;                  ///< permitted share of a processor
+  static constexpr std::int64_t kWindowNs = 200'000'000;  ///< shortest window of measurement
 
-  /// To be asked often. \param now_ns  CLOCK_MONOTONIC. \param used_ns  of processors, by the
-  /// thread
+  /// Whether the thread may stay urgent; call it often. \param now_ns  CLOCK_MONOTONIC. \param
+  /// used_ns  CPU time of the thread
   bool allows(std::int64_t now_ns, std::int64_t used_ns) noexcept {
     if (now_ns - from_ns_ >= kWindowNs) {
       const auto used = static_cast<double>(used_ns - used_from_ns_);

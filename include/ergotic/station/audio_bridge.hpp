@@ -24,12 +24,12 @@ namespace ergotic::station {
 
 struct AudioBridgeConfig {
   physics::Rates rates;
-  int output_channels = 24;  ///< as StationConfig
-  int input_channels = 12;   ///< as StationConfig
+  int output_channels = 24;  ///< as StationConfig::output_channels
+  int input_channels = 12;   ///< as StationConfig::input_channels
   /// Ring depth: host frames from the due time of a tick to the sound of its first frame,
   /// 1...kMaxLatencyFrames. Raised when a host starts whose period needs more.
   int latency_frames = 3 * 256;
-  bool limited = false;  ///< a Limiter stands before the host
+  bool limited = false;  ///< a Limiter precedes the host
 };
 
 /// A MIDI message, and when it came.
@@ -41,10 +41,10 @@ struct MidiArrival {
   rt::MidiMessage message;
 };
 
-/// How loud it was at the host's door.
+/// Levels of the output signal before the limiter.
 struct Loudness {
-  float peak = 0.0F;                ///< of full scale, before the limiter
-  std::int64_t limited_frames = 0;  ///< that the limiter turned down
+  float peak = 0.0F;                ///< largest magnitude, relative to full scale
+  std::int64_t limited_frames = 0;  ///< frames that the limiter attenuated
 };
 
 /// The only place where ticks and audio periods meet: index arithmetic, nothing else.
@@ -99,22 +99,22 @@ class AudioBridge : public rt::AudioProcessor, public FramePort {
 
   /// Takes news of the host: connects, disconnects, follows its clock. Before each tick.
   /// \param tick    the tick that runs next
-  /// \param due_ns  when it is due as things stand, CLOCK_MONOTONIC
+  /// \param due_ns  its present due time, CLOCK_MONOTONIC
   /// Realtime: yes. Thread: tick
   ERGOTIC_REALTIME void track(std::int64_t tick, std::int64_t due_ns) noexcept;
   /// True while a host's clock says when ticks are due. Realtime: yes. Thread: tick
   bool isMaster() const noexcept { return connected_; }
-  /// When a tick is due by the host's clock. \pre isMaster(). Realtime: yes. Thread: tick
+  /// Due time of a tick by the host's clock. \pre isMaster(). Realtime: yes. Thread: tick
   std::int64_t dueNs(std::int64_t tick) const noexcept;
 
-  /// No more ticks will come for now: silence until `track` connects again, without underruns.
-  /// Realtime: yes. Thread: tick
+  /// The tick source stops: the bridge plays silence until `track` connects again, without
+  /// underruns. Realtime: yes. Thread: tick
   void disconnect() noexcept;
 
-  /// Where a recorded take is played, beside the instrument, through the same volume and limiter.
+  /// Port through which a recorded take is mixed with the instrument, before volume and limiter.
   const std::shared_ptr<TakePort>& takes() const noexcept { return takes_; }
 
-  /// Since the bridge was made. Realtime: yes. Thread: any
+  /// Levels since the bridge was made. Realtime: yes. Thread: any
   Loudness loudness() const noexcept {
     return {peak_.load(std::memory_order_relaxed), limited_frames_.load(std::memory_order_relaxed)};
   }
@@ -122,19 +122,19 @@ class AudioBridge : public rt::AudioProcessor, public FramePort {
   /// for bit. Realtime: yes. Thread: any
   void setVolume(float volume) noexcept { volume_.store(volume, std::memory_order_relaxed); }
   float volume() const noexcept { return volume_.load(std::memory_order_relaxed); }
-  /// Of each output channel the largest sample since the last call, of full scale, after the volume
-  /// and before the limiter. Realtime: no. Thread: one, any
+  /// Peak magnitude of each output channel since the last call, relative to full scale, after the
+  /// volume and before the limiter. Realtime: no. Thread: one, any
   std::vector<float> takePeaks();
-  /// What the outputs play, after the volume and before the limiter. Thread: one, any, that looks
+  /// Scope of the output signal, after the volume and before the limiter. Thread: one, any
   OutputScope& scope() noexcept { return scope_; }
   /// Ring depth of the present connection. Realtime: yes. Thread: any
   int latencyFrames() const noexcept { return latency_.load(std::memory_order_relaxed); }
-  /// What operators should know (a raised latency, sound beyond full scale); each is given once.
+  /// Messages for operators (a raised latency, sound beyond full scale); each is returned once.
   /// Realtime: no. Thread: any
   std::vector<std::string> takeWarnings();
 
  private:
-  /// The connection as the tick chose it, told to the host's thread.
+  /// Relation of frames in this connection, chosen by the tick and sent to the host's thread.
   struct Relation {
     std::uint32_t connection = 0;  // 0: none
     std::int64_t offset = 0;       // host frame - station frame
@@ -144,7 +144,7 @@ class AudioBridge : public rt::AudioProcessor, public FramePort {
     std::uint32_t connection = 0;
     rt::FrameTime start;
   };
-  /// Frames that did not sound, told to the tick.
+  /// Frames that were not played, reported to the tick.
   struct Loss {
     Event::Type type = Event::Type::kUnderrun;
     std::int64_t first = 0;

@@ -11,24 +11,25 @@
 /// Whether what plays is what the scene says. Realtime: no.
 namespace ergotic::station {
 
-/// Share of the steps in which a guarded link may be cut before it is told of.
+/// Share of the steps in which a guarded link may be cut before it is reported.
 constexpr double kMaxClippedShare = 0.05;
-/// Steps in which it must have pushed before its share means anything.
+/// Steps in which a link must have pushed before its share is significant.
 constexpr std::int64_t kMinActiveSteps = 200;
 
-/// Whether a link is cut so often that it is told of.
+/// Whether a link is cut so often that it is reported.
 bool isCutTooOften(const physics::GuardReport& guard);
 
 /// Clipped over active steps; 0 if it never pushed.
 double clippedShare(const physics::GuardReport& guard);
 
-/// How steep the force of a guarded link may be where it pushes, for its tank to hold what its law
-/// asks for, kg/time_unit^2: q K <= 1, with all guarded links of a module at once; infinite between
-/// modules that no force moves. Source: docs/physics/schemes.md, "Energy-stable links".
+/// Largest stiffness (slope of the force) of a guarded link at which its tank still holds the
+/// energy that its law asks for, kg/time_unit^2: q K <= 1, with all guarded links of a module at
+/// once; infinite between modules that no force moves. Source: docs/physics/schemes.md,
+/// "Energy-stable links".
 double mostStiffness(const scene::Scene& scene, const scene::Lia& lia, const physics::Rates& rates);
 
-/// One line for each guarded link that is cut too often, worst first: which, how often, and what to
-/// change.
+/// Makes one warning for each guarded link that is cut too often, worst first: the link, how often
+/// it is cut, and what to change.
 std::vector<std::string> guardWarnings(const scene::Scene& scene,
                                        const physics::Rates& rates,
                                        const std::vector<physics::GuardReport>& guards);

@@ -8,18 +8,20 @@
 
 namespace ergotic::station {
 
-/// The one owner of the state of force: whether it may go out, and why not. Everybody asks here.
+/// Owner of the state of the force output: whether force may be output, and if not, why. All other
+/// classes ask this one.
 ///
-/// It counts how often force was taken away. Who wants it back says which count was known when that
-/// was asked for: a request older than the last stop brings no force, however late it is heard.
-/// It outlives stations: an emergency stop before the first of them holds like any other.
+/// The interlock counts how often force was taken away. A request for force carries the count that
+/// was current when it was made: a request older than the last stop has no effect, however late it
+/// arrives. The interlock outlives stations: an emergency stop before the first station stays in
+/// effect.
 /// Realtime: yes. Thread: any
 class Interlock {
  public:
   struct Reading {
     Ticket ticket = 0;
     ForceState state = ForceState::kReady;
-    FaultReason reason = FaultReason::kNone;  ///< of kFault
+    FaultReason reason = FaultReason::kNone;  ///< reason of the fault, if `state` is kFault
 
     bool isOpen() const noexcept {
       return state == ForceState::kEngaging || state == ForceState::kPlaying;
@@ -28,24 +30,24 @@ class Interlock {
   };
 
   Reading read() const noexcept { return unpacked(word_); }
-  /// What a request for force that comes now has to show.
+  /// Ticket that a request for force made now has to carry.
   Ticket ticket() const noexcept { return read().ticket; }
 
   // What takes force away always succeeds.
 
-  /// No force until an `engage` that is asked for later.
+  /// Stops the force until an `engage` that is requested after this call.
   void stop() noexcept;
-  /// No force until a `recover` that is asked for later, and an `engage` after it. The first reason
-  /// is the one that is kept.
+  /// Latches a fault: there is no force until a `recover` that is requested after this call, and an
+  /// `engage` after it. The first reason is kept.
   void latch(FaultReason reason) noexcept;
-  /// Whether all slices in use have a calibration: without, no force and no `engage`.
+  /// Sets whether all slices in use are calibrated; if not, there is no force and `engage` fails.
   void setCalibrated(bool is_calibrated) noexcept;
 
   // What gives it back does not if force was taken away since it was asked for.
 
   bool engage(Ticket asked) noexcept;   ///< \return false also if latched or not calibrated
   bool play() noexcept;                 ///< the ramp is over. \return false if no force ramps in
-  bool recover(Ticket asked) noexcept;  ///< to kReady, from any state
+  bool recover(Ticket asked) noexcept;  ///< goes to kReady, from any state
 
  private:
   using Word = std::uint64_t;  // ticket, state, reason: they change together

@@ -11,14 +11,14 @@
 
 namespace ergotic::station {
 
-/// What a slice in use meets of a model through what stands on it.
+/// Load that a slice in use gets from a model through its end-effector.
 struct SliceLoad {
   int slice = 0;
-  double stiffness = 0.0;        ///< when it moves and the others rest, N/m
-  double together = 0.0;         ///< with the slices of its end-effector, in the worst way, N/m
-  double damping = 0.0;          ///< with them, N s/m
-  double stiffness_limit = 0.0;  ///< no hand sets off less by itself, N/m
-  double damping_limit = 0.0;    ///< no hand sets off less by itself, N s/m
+  double stiffness = 0.0;        ///< when this slice moves and the others rest, N/m
+  double together = 0.0;         ///< largest eigenvalue over the slices of its end-effector, N/m
+  double damping = 0.0;          ///< as `together`, of the damping, N s/m
+  double stiffness_limit = 0.0;  ///< the hand loop is passive up to here, N/m
+  double damping_limit = 0.0;    ///< the hand loop is passive up to here, N s/m
   physics::HandLevel level = physics::HandLevel::kSilent;
 };
 
@@ -40,7 +40,7 @@ HandFindings judgeHands(const scene::Scene& scene,
                         const physics::DeviceTraits& device,
                         const tgr::EndEffectors& end_effectors);
 
-/// What stands between a device and a performer, and what is to be said of it.
+/// Rig between a device and a performer, and the warnings about it.
 struct FittedHands {
   std::unique_ptr<tgr::Rig> rig;
   std::vector<std::string> warnings;
@@ -55,7 +55,8 @@ FittedHands fitHands(const Performer& performer,
                      int slices,
                      const physics::DeviceTraits& device);
 
-/// The same for a performer that does not play yet: it gets the rig, and the warnings.
+/// Fits end-effectors, as fitHands, and stores rig and warnings in a performer that does not play
+/// yet.
 void giveHands(Performer& performer,
                const tgr::EndEffectors& end_effectors,
                int slices,

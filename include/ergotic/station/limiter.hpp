@@ -13,13 +13,13 @@ namespace ergotic::station {
 /// below the ceiling passes bit for bit. Thread: one
 class Limiter {
  public:
-  static constexpr double kCeiling = 0.98;  ///< of full scale, -0.2 dBFS
+  static constexpr double kCeiling = 0.98;  ///< relative to full scale, -0.2 dBFS
   static constexpr double kReleaseS = 0.2;  ///< time constant
 
   /// \param rate_hz  of frames
   explicit Limiter(double rate_hz) : release_(-std::expm1(-1.0 / (kReleaseS * rate_hz))) {}
 
-  /// What to multiply a frame with. \param peak  largest magnitude of its samples, finite
+  /// Gain for the next frame. \param peak  largest magnitude of its samples, finite
   /// Realtime: yes
   float gainFor(float peak) noexcept {
     constexpr double kWhole = 0.99999;  // above it the gain is 1 again

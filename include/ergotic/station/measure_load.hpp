@@ -15,7 +15,7 @@ namespace ergotic::station {
 /// \pre it does not play. Realtime: no. Thread: any. Takes a tenth of a second, or five ticks
 double measureLoad(Performer& performer);
 
-/// What to say of a model that is too heavy: by how much, and what would help.
+/// Describes how much a model exceeds the permitted load, and what reduces the load.
 /// \param load  of measureLoad, above `max_load`
 std::string describeLoad(const physics::Instrument& instrument, double load, double max_load);
 

@@ -10,7 +10,7 @@
 #include "ergotic/tgr/fault.hpp"
 #include "ergotic/tgr/rig.hpp"
 
-/// What crosses between the real-time thread and the others: plain structs only.
+/// Messages between the real-time thread and the other threads: plain structs only.
 namespace ergotic::station {
 
 /// State of the force output. Force never comes back by itself.
@@ -24,33 +24,33 @@ enum class ForceState : std::uint8_t {
 };
 const char* toString(ForceState state);
 
-/// How often force had been taken away when something was asked for, see Interlock.
+/// Number of times force had been taken away when a request was made, see Interlock.
 using Ticket = std::uint64_t;
-constexpr Ticket kAskedNow = ~Ticket{0};  ///< it is asked for when it is submitted
+constexpr Ticket kAskedNow = ~Ticket{0};  ///< stands for the ticket at the time of submission
 
-/// Who asks, as the command thread tells them apart. Of a swap it is compared with that of the last
-/// kEngage when the new model plays, for force may have been let out by another in between.
+/// Identifies who submits a command. When a swap with SwapForce::kCaller takes effect, its caller
+/// is compared with that of the last kEngage, as another caller may have engaged force in between.
 using Caller = std::uint64_t;
 
-/// For whose swap the force that is there comes back, in a ramp.
+/// Condition under which force ramps in again after a swap.
 enum class SwapForce : std::uint8_t {
   kAlways,
-  kNever,   ///< it goes to zero and waits for kEngage
-  kCaller,  ///< of who let it out; otherwise as kNever
+  kNever,   ///< force goes to zero and waits for kEngage
+  kCaller,  ///< if the submitter of the swap engaged the force; otherwise as kNever
 };
 
-/// An instrument ready to play and what its ports need, made outside, owned by whoever holds it.
+/// An instrument ready to play with the data of its ports, made outside the tick, with one owner.
 struct Performer;
 
 /// A hand that holds a module anywhere in the model, and where it goes: all of it between two
 /// ticks, so that a recording of its changes is enough to play it again. Places are displacements
 /// from rest, m, as in physics::Touch.
 struct Hold {
-  int mat = physics::Touch::kNothing;  ///< as Touch::mat; kNothing: it holds nothing
-  bool takes_hold = false;             ///< with the next tick, where the module is then
-  std::array<double, 3> at{};          ///< where it wants the module to be
-  std::array<double, 3> goal{};        ///< where it goes, on a straight line
-  int ticks_left = 0;                  ///< until it is there, 0...kMaxHoldTicks
+  int mat = physics::Touch::kNothing;  ///< as Touch::mat; kNothing: the hand holds nothing
+  bool takes_hold = false;             ///< attach in the next tick, at the module's position then
+  std::array<double, 3> at{};          ///< position that the hand wants, m
+  std::array<double, 3> goal{};        ///< end of its motion on a straight line, m
+  int ticks_left = 0;                  ///< ticks until it reaches `goal`, 0...kMaxHoldTicks
   double stiffness = 0.0;              ///< N/m
   double damping = 0.0;                ///< N s/m
   double most_force = 0.0;             ///< N
@@ -58,7 +58,7 @@ struct Hold {
 constexpr int kMaxHoldTicks = 1 << 20;
 using Holds = std::array<Hold, physics::kMaxTouches>;
 
-/// From operators to the tick, taken at a tick boundary.
+/// Command from operators to the tick, executed at a tick boundary.
 struct Command {
   enum class Type : std::uint8_t {
     kEngage,     ///< ramp force in
@@ -66,7 +66,7 @@ struct Command {
     kParameter,  ///< take `coefficients`, prepared by the performer submitted last; index and value
                  ///< say which parameter got which value, for the record
     kConfigure,  ///< force to zero, state Ready; take `rig`, made for the performer submitted last
-    kRecover,    ///< from Fault to Ready; a model that blew up starts anew
+    kRecover,    ///< go from Fault to Ready; a model that blew up starts anew
     kInject,     ///< index: InjectedModelFault, value: ticks; if the configuration allows it. Other
                  ///< indices are told, no more: faults that are made elsewhere
     kKeyframe,   ///< copy the state for a recording that starts now, or after the fade of a swap
@@ -74,23 +74,23 @@ struct Command {
   Type type = Type::kKeyframe;
   int index = 0;
   double value = 0.0;
-  std::uint64_t id = 0;      ///< of kEngage and kRecover: their answer carries it
-  Ticket asked = kAskedNow;  ///< of kEngage and kRecover: no effect if force was taken away since
-  Caller caller = 0;         ///< of kEngage and kSwap
+  std::uint64_t id = 0;      ///< identifies kEngage and kRecover in their answers
+  Ticket asked = kAskedNow;  ///< kEngage and kRecover fail if force was taken away since
+  Caller caller = 0;         ///< submitter of kEngage or kSwap
   Performer* performer = nullptr;
   physics::Coefficients* coefficients = nullptr;
   tgr::Rig* rig = nullptr;
 };
 
-/// What can be made to go wrong in the model's forces, before the safety chain sees them. The
-/// numbers are part of the ROS interface (InjectFault.srv).
+/// Faults that can be injected into the model's forces, ahead of the safety chain. The numbers are
+/// part of the ROS interface (InjectFault.srv).
 enum class InjectedModelFault : std::uint8_t {
   kNotANumber = 16,  ///< a force that is not a number
   kBlowUp = 17,      ///< forces that double with every tick, from 1 N on
   kActive = 18,      ///< a spring of negative stiffness between hand and model
 };
 
-/// From the tick to everyone, in order, stamped with the tick at which it took effect.
+/// Report from the tick to all receivers, in order, stamped with the tick at which it took effect.
 struct Event {
   enum class Type : std::uint8_t {
     kEngaged,  ///< id; value: ramp, s
@@ -123,14 +123,14 @@ struct Event {
   std::int64_t frame = 0;
   std::int64_t index = 0;
   double value = 0.0;
-  std::uint64_t id = 0;  ///< of the command that it answers
+  std::uint64_t id = 0;  ///< id of the command that this event answers
   Performer* performer = nullptr;
   physics::Coefficients* coefficients = nullptr;
   tgr::Rig* rig = nullptr;
   Hold hold{};
 };
 
-/// Why a command was not obeyed.
+/// Reason why a command was not obeyed.
 enum class Refusal : std::uint8_t {
   kFault = 1,     ///< `recover` first
   kUncalibrated,  ///< a slice in use has no calibration
@@ -140,14 +140,15 @@ enum class Refusal : std::uint8_t {
 };
 const char* toString(Refusal refusal);
 
-/// What a fault kStall means, which limit it was, and what helps: Event::value and Event::id of it.
+/// Explains a fault kStall: which limit was exceeded, and what helps. The parameters are
+/// Event::value and Event::id of that fault.
 std::string explainStall(double stall_s, std::uint64_t stalls_borne);
 
 enum class LateCause : std::uint8_t { kWakeUp, kDevice, kCompute };
 
 using tgr::FaultReason;
 
-/// One tick as recorded: enough, with the scene, to play it again bit for bit.
+/// Record of one tick: enough, with the scene, to play it again bit for bit.
 struct GestureTick {
   enum Flag : std::uint32_t {
     kCatchUp = 1U << 0U,  ///< run after a stall, position interpolated, force muted
@@ -177,25 +178,27 @@ struct Counters {
   std::int64_t underruns = 0;
   std::int64_t underrun_frames = 0;
   std::int64_t xruns = 0;
-  std::int64_t bad_input_samples = 0;  ///< of audio inputs, not finite: the model got 0 instead
+  std::int64_t bad_input_samples = 0;  ///< non-finite samples of audio inputs, replaced by 0
   std::int64_t dropped_records = 0;    ///< gesture ticks or events that found their ring full
   double late_worst_s = 0.0;           ///< latest wake-up
   double peak_force_n = 0.0;
-  double peak_raw_force_n = 0.0;   ///< that the model asked for since the last `recover`
+  double peak_raw_force_n = 0.0;   ///< peak of the model's forces since the last `recover`
   double port_energy_min_j = 0.0;  ///< least of any slice; below 0: so much it gave out
-  std::int64_t clamped_ticks = 0;  ///< in which the energy clamp cut a force, summed over slices
-  std::int64_t muted_ticks = 0;    ///< in which a sensor stood still, without force, summed as well
-  double load_mean = 0.0;          ///< compute time over tick period, smoothed over about a second
+  std::int64_t clamped_ticks =
+      0;  ///< ticks in which the energy clamp cut a force, summed over slices
+  std::int64_t muted_ticks =
+      0;                   ///< ticks in which a constant sensor value muted force, summed likewise
+  double load_mean = 0.0;  ///< compute time over tick period, smoothed over about a second
   double load_peak = 0.0;
 };
 
-/// What displays see, 30-60 times a second.
+/// State of the station for displays, published 30-60 times a second.
 struct Snapshot {
   std::int64_t tick = 0;
   ForceState state = ForceState::kDisconnected;
   FaultReason fault = FaultReason::kNone;
-  double stall_s = 0.0;            ///< of a fault kStall, as Event::value
-  std::uint64_t stalls_borne = 0;  ///< of a fault kStall, as Event::id
+  double stall_s = 0.0;            ///< Event::value of the fault, if it is kStall
+  std::uint64_t stalls_borne = 0;  ///< Event::id of the fault, if it is kStall
   bool audio_running = false;
   bool clock_locked = false;
   Counters counters;

@@ -11,8 +11,8 @@
 
 namespace ergotic::station {
 
-/// Copies blocks of the sound for who wants to see it, whole frames in a row. While nobody does, it
-/// costs a look at an atomic per frame. Two threads: the one that plays, and one that looks.
+/// Copies blocks of the output for displays, whole frames in a row. While there is no display, it
+/// costs one atomic read per frame. Two threads: the one that plays, and one that displays.
 class OutputScope {
  public:
   static constexpr std::size_t kFrames = 2048;

@@ -16,7 +16,7 @@
 
 namespace ergotic::station {
 
-/// What displays get of a model: one frame of its motion, and how it fares.
+/// Data of a model for displays: one frame of its motion, its energies, and its guarded links.
 struct MotionFrame {
   std::int64_t tick = 0;
   std::vector<float> displacement;  ///< [Scene::coordinates] m from rest
@@ -35,15 +35,15 @@ struct Performer {
   /// Cost: O(modules + links)
   void publishMotion(std::int64_t tick) noexcept;
 
-  /// Back to how it was made, but for the parameters. Realtime: yes. Thread: tick
+  /// Restores the initial state; parameters keep their values. Realtime: yes. Thread: tick
   void restart() noexcept;
 
   std::unique_ptr<physics::Instrument> instrument;
   std::unique_ptr<tgr::Rig> rig;      ///< between device and ports
-  std::int64_t ticks = 0;             ///< that it played; the time of its agents
+  std::int64_t ticks = 0;             ///< number of ticks played; the time of its agents
   physics::Certificate certificate;   ///< filled by makePerformer
-  std::vector<std::string> warnings;  ///< of scene and certificate, and notes of `settle`
-  bool allow_unproven = false;        ///< whoever loaded it wants it even so
+  std::vector<std::string> warnings;  ///< warnings of scene and certificate, and notes of `settle`
+  bool allow_unproven = false;        ///< loaded although it is unproven
   std::vector<double> parameters;     ///< [parameters] values now in force; written by the tick
   std::vector<double> positions;      ///< [ports] m, in the model
   std::vector<double> forces;         ///< [ports] N, in the model
@@ -53,15 +53,16 @@ struct Performer {
   std::vector<unsigned char> initial;  ///< state of the instrument as it was made
 };
 
-/// What makePerformer accepts.
+/// Requirements that makePerformer checks.
 struct PerformerPolicy {
-  bool allow_unproven = false;   ///< play what has no bound
-  bool allow_unstable = false;   ///< play even what is known to blow up
-  double max_load = 0.0;         ///< of measureLoad; 0: it is not measured
-  int slices = tgr::kMaxSlices;  ///< of the device that it will be played with
-  physics::DeviceTraits device;  ///< what its passivity depends on
+  bool allow_unproven = false;   ///< accept models without a proven bound
+  bool allow_unstable = false;   ///< accept even models that are known to blow up
+  double max_load = 0.0;         ///< largest permitted measureLoad; 0: load is not measured
+  int slices = tgr::kMaxSlices;  ///< number of slices of the device
+  physics::DeviceTraits device;  ///< device traits that determine passivity
   tgr::EndEffectors end_effectors;
-  /// Told what is done next, as in `certify 198003 modules and links`, for whoever waits.
+  /// Callback for the present stage, as in `certify 198003 modules and links`, for progress
+  /// displays.
   std::function<void(const std::string& stage)> on_stage;
 };
 

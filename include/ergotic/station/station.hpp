@@ -29,10 +29,10 @@ struct StationConfig {
   int input_channels = 12;   ///< audio channels in; a model's higher channels get silence
   tgr::SafetyConfig safety;
   double max_stall_s = 0.05;  ///< longer ones are a Fault, 0.001...1
-  int max_stalls = 3;         ///< that a second of force may bring; more are a Fault, 1...1e6
+  int max_stalls = 3;         ///< permitted per second of force; more are a Fault, 1...1e6
   double display_hz = 60.0;   ///< how often snapshots and motion are published
   double presence_s = 0.0;    ///< longest time between two tellPresence; 0: no switch
-  double glide_s = 0.1;       ///< of the ports to another configuration, 0.001...10
+  double glide_s = 0.1;       ///< duration of the glide of the ports to another rig, 0.001...10
   bool allow_fault_injection = false;      ///< obey kInject
   std::size_t record_ring = 1U << 14U;     ///< gesture ticks
   std::size_t event_ring = 1U << 12U;      ///< events, beside those that hand something back
@@ -75,34 +75,35 @@ class Station {
   Station(const Station&) = delete;
   Station& operator=(const Station&) = delete;
 
-  /// Where audio goes; null: nowhere. \pre no tick is running. Realtime: no. Thread: setup
+  /// Sets where audio frames go; null: nowhere. \pre no tick is running. Realtime: no. Thread:
+  /// setup
   void setFramePort(FramePort* port) noexcept { frame_port_ = port; }
 
-  /// Where the cost of ticks is counted; null: nowhere. \pre no tick is running, and it outlives
-  /// them. Realtime: no. Thread: setup
+  /// Sets where the cost of ticks is counted; null: nowhere. \pre no tick is running, and the meter
+  /// outlives them. Realtime: no. Thread: setup
   void setMeter(TickMeter* meter) noexcept { meter_ = meter; }
 
-  /// How late a tick began, told by the tick source.
+  /// Lateness of a tick, as the tick source reports it.
   struct Timing {
-    std::int64_t late_ns = 0;  ///< after its due time
-    bool freewheel = false;    ///< no clock drives the ticks, so none of them can be late
+    std::int64_t late_ns = 0;  ///< delay of its begin after its due time
+    bool freewheel = false;    ///< no clock drives the ticks, so no tick can be late
   };
-  /// One tick. Realtime: yes. Thread: tick
+  /// Runs one tick. Realtime: yes. Thread: tick
   ERGOTIC_REALTIME void cycle(const Timing& timing) noexcept;
 
-  /// The `ticks` ticks that are due after a stall: one exchange with zero force, then the ticks
-  /// with positions interpolated to the new sample, force muted, recorded as kCatchUp; the force
-  /// then ramps in again. Beyond max_stall: Fault kStall; the oldest ticks are lost (kTicksLost),
-  /// so that the work is bounded by max_stall's worth of ticks. The model's time stands still over
-  /// lost ticks; the tick index, and with it the station frame and the clock, does not. Realtime:
-  /// yes. Thread: tick
+  /// Runs the `ticks` ticks that are due after a stall: one exchange with zero force, then the
+  /// ticks with positions interpolated to the new sample, force muted, recorded as kCatchUp; the
+  /// force then ramps in again. Beyond max_stall: Fault kStall; the oldest ticks are lost
+  /// (kTicksLost), so that the work is bounded by max_stall's worth of ticks. The model's time
+  /// stands still over lost ticks; the tick index, and with it the station frame and the clock,
+  /// does not. Realtime: yes. Thread: tick
   ERGOTIC_REALTIME void catchUp(std::int64_t ticks, std::int64_t stall_ns) noexcept;
 
-  /// Force gate closed and zero force sent: the last act of a tick source. A later source must
-  /// engage again. Realtime: yes. Thread: tick
+  /// Closes the force gate and sends zero force: the last act of a tick source. Under a later
+  /// source force has to be engaged again. Realtime: yes. Thread: tick
   ERGOTIC_REALTIME void rest() noexcept;
 
-  /// These ticks will never run, but count. Realtime: yes. Thread: tick
+  /// Skips ticks that will never run; the tick index counts them. Realtime: yes. Thread: tick
   void skip(std::int64_t ticks) noexcept { tick_ += ticks; }
 
   /// Index of the tick that runs next. Realtime: yes. Thread: tick
@@ -136,15 +137,15 @@ class Station {
   /// Realtime: yes. Thread: one, any
   bool move(const tgr::HandMove& move, double due_tick = kAtOnce) noexcept;
 
-  /// One of the hands that can hold any module does as `hold` says, from the next tick on; one that
-  /// holds this module already goes on from where it is, any other takes hold where the module is.
-  /// All let go when another model plays. Of several in a tick the newest counts.
+  /// Makes one of the hands that can hold any module do as `hold` says, from the next tick on. A
+  /// hand that already holds this module goes on from where it is; any other hand attaches at the
+  /// module's position. All hands let go when another model plays. If several calls for a hand fall
+  /// into one tick, the newest counts.
   /// \param hand   below physics::kMaxTouches
-  /// \param model  that it is meant for: while another one plays nothing happens. Null: the one
-  /// that
-  ///               plays, which does as `hold` says in all, as a replay needs it
-  /// \return false if a value is outside its range. What cannot be held (Instrument::canTouch) is
-  ///         let be. Realtime: yes. Thread: as `move`
+  /// \param model  performer that the call is meant for; while another one plays the call has no
+  ///               effect. Null: the one that plays, and `hold` applies unchanged, as in a replay
+  /// \return false if a value is outside its range. A module that cannot be held
+  ///         (Instrument::canTouch) is ignored. Realtime: yes. Thread: as `move`
   bool hold(std::size_t hand, const Hold& hold, const Performer* model) noexcept;
 
   // Command thread:
@@ -171,7 +172,7 @@ class Station {
   const Keyframe& keyframe() const noexcept { return keyframe_; }
   /// Thread: command thread
   tgr::Driver& driver() noexcept { return *driver_; }
-  /// Can this be swapped in? Realtime: no. Thread: any
+  /// Checks whether a performer can be swapped in. Realtime: no. Thread: any
   /// \throws Exception saying what does not fit
   void checkFits(const Performer& performer) const;
 
@@ -308,7 +309,7 @@ class Station {
   bool keyframe_asked_ = false;  // and not yet come, or not yet seen
 };
 
-/// What a station relies on of the damping that a driver declares, both in N s/m: half of it, and
+/// Damping that a station relies on, given what the driver declares, both in N s/m: half of it, and
 /// no more than 100 (docs/safety.md). Realtime: yes. Thread: any
 double trustedDamping(double declared) noexcept;
 

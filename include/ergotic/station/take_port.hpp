@@ -10,17 +10,17 @@
 
 namespace ergotic::station {
 
-/// Where the sound of a recorded take enters the audio host, beside that of the instrument that
-/// plays. One thread plays the take and writes, ahead of time; the host's real-time thread reads.
-/// Where the writer is late the take pauses, so that it stays whole.
+/// Port through which the sound of a recorded take enters the audio host, in addition to that of
+/// the instrument. One thread plays the take and writes, ahead of time; the host's real-time thread
+/// reads. If the writer is late the take pauses, so that no frame is lost.
 class TakePort {
  public:
   /// \param rate_hz  of the sound. Realtime: no. Thread: setup
   TakePort(std::size_t capacity_frames, int channels, double rate_hz);
 
-  /// Another take begins. \pre isSilent(). Realtime: yes. Thread: writer
+  /// Begins another take. \pre isSilent(). Realtime: yes. Thread: writer
   void open() noexcept { open_.store(true, std::memory_order_release); }
-  /// It shall not be heard any more: it fades within kFadeS, and what is left of it is dropped.
+  /// Ends the take: it fades out within kFadeS, and its remaining frames are dropped.
   /// Realtime: yes. Thread: any
   void close() noexcept { open_.store(false, std::memory_order_release); }
   /// \return whether nothing of a take is left. Realtime: yes. Thread: writer

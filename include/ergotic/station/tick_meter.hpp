@@ -25,12 +25,12 @@ class TickHistogram {
   void add(std::int64_t ns) noexcept;
 
   // Any thread, also while another one adds; what is added meanwhile may be in or not.
-  /// Those that hold something, from the shortest on.
+  /// Returns the bins that are not empty, shortest durations first.
   std::vector<Bin> bins() const;
   std::int64_t count() const noexcept;
   std::int64_t maxNs() const noexcept { return max_ns_.load(std::memory_order_relaxed); }
-  /// So many ns or less took the share `part` of all; to the end of a bin, but not beyond the
-  /// longest. \param part  0...1 \return 0 if there are none
+  /// Quantile: the share `part` of all durations is at most this long, rounded up to the end of a
+  /// bin, but not beyond the longest. \param part  0...1 \return 0 if there are none
   std::int64_t quantileNs(double part) const noexcept;
 
  private:
@@ -43,7 +43,7 @@ class TickHistogram {
   std::atomic<std::int64_t> max_ns_{0};
 };
 
-/// What the ticks of a station cost that a clock drives. See Station::setMeter.
+/// Cost of the ticks of a station that is driven by a clock. See Station::setMeter.
 struct TickMeter {
   TickHistogram wake_up;   ///< begin after the due time; a stall counts once, with its length
   TickHistogram exchange;  ///< the device

@@ -5,11 +5,11 @@
 
 namespace ergotic::station {
 
-/// When the next tick is due, and what to do about it now. Reads no clock itself.
+/// Computes when the next tick is due, and what to do now. Reads no clock itself.
 ///
-/// Ticks are due one period apart. Where a master clock says otherwise, the due times move towards
-/// its own by at most `kMaxSlew` of a period per tick: whatever the master does when it comes, goes
-/// or jumps, no tick is skipped or doubled because of it.
+/// Ticks are due one period apart. If a master clock says otherwise, the due times move towards its
+/// own by at most `kMaxSlew` of a period per tick: whatever the master does when it comes, goes or
+/// jumps, no tick is skipped or doubled because of it.
 ///
 /// Realtime: yes, all of it. Thread: tick
 class TickSchedule {
@@ -32,10 +32,10 @@ class TickSchedule {
   /// \param first_due_ns  when the first one is due
   TickSchedule(double period_ns, std::int64_t first_due_ns) noexcept;
 
-  /// When the next tick is due, rounded down to ns.
+  /// Due time of the next tick, rounded down to ns.
   std::int64_t dueNs() const noexcept { return due_ns_; }
 
-  /// What to do at `now_ns`.
+  /// Step to take at the time `now_ns`.
   Step at(std::int64_t now_ns) const noexcept;
 
   /// `ticks` ticks have run. \pre ticks >= 1

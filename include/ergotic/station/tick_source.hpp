@@ -12,14 +12,14 @@ namespace ergotic::station {
 
 struct TimerOptions;
 
-/// What makes a station tick. Realtime: no. Thread: setup
+/// Source of the ticks of a station. Realtime: no. Thread: setup
 class TickSource {
  public:
   virtual ~TickSource() = default;
   /// Ends after the present tick, with zero force sent. Idempotent.
   virtual void stop() noexcept = 0;
   virtual bool isRunning() const noexcept = 0;
-  /// What `start` could not get, and what to do about it.
+  /// Warnings: what the system refused to `start`, and what to do about it.
   virtual const std::vector<std::string>& warnings() const noexcept = 0;
 };
 

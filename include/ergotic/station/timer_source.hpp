@@ -16,8 +16,8 @@ namespace ergotic::station {
 
 struct TimerOptions {
   int priority = 75;        ///< SCHED_FIFO, 1...99; 0: an ordinary thread
-  bool lock_memory = true;  ///< of the whole process
-  int cpu = -1;             ///< to run on, -1: any
+  bool lock_memory = true;  ///< lock the memory of the whole process
+  int cpu = -1;             ///< CPU that the thread runs on, -1: any
 };
 
 /// Ticks a station in a real-time thread of its own, at absolute times of CLOCK_MONOTONIC: those of

@@ -10,12 +10,12 @@
 
 namespace ergotic::tgr {
 
-/// From volts to metres and from newtons to volts, of one slice. The sign of a gain is the
+/// Calibration of one slice: volts to metres and newtons to volts. The sign of a gain gives the
 /// direction: positions and forces are positive along the slice's axis (up).
 struct SliceCalibration {
   bool is_calibrated = false;
   double metres_per_volt = 0.0;  ///< not 0
-  double rest_volts = 0.0;       ///< at position 0
+  double rest_volts = 0.0;       ///< sensor voltage at position 0
   double low_volts = -10.0;      ///< the sensor's range; at or beyond it the sensor is at its rail
   double high_volts = 10.0;
   double volts_per_newton = 0.0;  ///< not 0
@@ -23,7 +23,7 @@ struct SliceCalibration {
   /// whose station died.
   double zero_volts = 0.0;
   double max_volts = 10.0;          ///< the output's range is +-max_volts
-  double full_scale_newtons = 0.0;  ///< what max_volts really give, as was measured; 0: not known
+  double full_scale_newtons = 0.0;  ///< measured force at max_volts; 0: unknown
   /// metres_per_volt times volts_per_newton as it was when a push was answered; of another product
   /// nothing is known. 0: never
   double checked = 0.0;
@@ -31,22 +31,22 @@ struct SliceCalibration {
   double noise_m = 0.0;     ///< rms of the sensor at rest
 };
 
-/// Whether a push has told sign and scale of these very gains.
+/// Whether a push has confirmed sign and scale of exactly these gains.
 bool isChecked(const SliceCalibration& calibration);
 
 // A push is a force that grows in a straight line, until a slice that was at rest has moved.
-constexpr double kRestS = 0.1;   ///< before it
-constexpr double kRestM = 1e-4;  ///< most that a slice moves meanwhile that is at rest
-constexpr double kPushN = 1.0;   ///< most that is asked for, at its end
+constexpr double kRestS = 0.1;   ///< time at rest before the push
+constexpr double kRestM = 1e-4;  ///< largest motion within kRestS that counts as rest
+constexpr double kPushN = 1.0;   ///< largest force, at the end of the push
 constexpr double kLeastPushN = 0.1;
-constexpr double kPushS = 0.05;   ///< it ends then
-constexpr double kPushM = 0.001;  ///< or there, which too large a gain reaches while it is weak
+constexpr double kPushS = 0.05;   ///< duration of the push
+constexpr double kPushM = 0.001;  ///< motion at which it ends earlier, as under too large a gain
 
-/// How a slice answered a push upwards.
+/// Response of a slice to a push upwards.
 struct Push {
-  double newtons = 0.0;  ///< that were asked for after `kPushS`
-  double moved_m = 0.0;  ///< until it ended, as the calibration says
-  double seconds = 0.0;  ///< from when the device had the force; 0: it never had, or not to the end
+  double newtons = 0.0;  ///< force that is reached after `kPushS`
+  double moved_m = 0.0;  ///< motion until the push ended, by the calibration
+  double seconds = 0.0;  ///< since the device had the force; 0: it had none, or not to the end
 };
 
 /// \param mass_kg  that the push moves
@@ -65,7 +65,7 @@ struct Calibration {
 Calibration readCalibration(const std::string& text, const std::string& name);
 std::string toYaml(const Calibration& calibration);
 
-/// One place where a slice was held still: where it is and what its sensor said.
+/// One measured point of a calibration: position and sensor voltage while the slice is held still.
 struct CalibrationPoint {
   double position_m = 0.0;
   double mean_volts = 0.0;
@@ -86,8 +86,8 @@ SliceCalibration fit(const std::vector<CalibrationPoint>& points,
 /// change while ticks go on.
 class CalibratedDriver : public Driver {
  public:
-  /// Takes effect with a later exchange, which `uncalibrated` then tells of: a slice that had
-  /// another calibration is without one for that exchange. Thread: command thread
+  /// Sets a calibration, with effect from a later exchange, as `uncalibrated` shows: a slice that
+  /// had another calibration is without one for that exchange. Thread: command thread
   /// \throws Exception if a slice does not exist or a number is out of range
   virtual void set(int slice, const SliceCalibration& calibration) = 0;
   /// Thread: command thread
@@ -95,9 +95,9 @@ class CalibratedDriver : public Driver {
   /// Pushes a calibrated slice, soon. Forces of the model end it, and stay. Thread: command thread
   /// \throws Exception if it has no calibration, does not exist, or `newtons` is out of range
   virtual void push(int slice, double newtons) = 0;
-  /// No push any more. Idempotent. Thread: command thread
+  /// Ends the push. Idempotent. Thread: command thread
   virtual void endPush() noexcept = 0;
-  /// What became of the last push, once. Thread: command thread
+  /// Result of the last push, returned once. Thread: command thread
   virtual std::optional<Push> takePush() noexcept = 0;
   /// Newest sensor values. \param[out] volts  [slices]. Realtime: yes. Thread: command thread
   virtual void readVolts(double* volts) noexcept = 0;

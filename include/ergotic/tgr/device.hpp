@@ -18,18 +18,18 @@ namespace ergotic::tgr {
 struct DeviceConfig {
   std::string driver;  ///< name: virtual, replay, comedi, jack, or a plugin's
   std::shared_ptr<const YAML::Node> settings;  ///< map, see DriverFactory::make; null: none
-  std::string place;  ///< name of the file that they are from, for messages
+  std::string place;                           ///< name of the file of `settings`, for messages
   std::optional<Calibration> calibration;
-  scene::Place driver_at{1, 1};  ///< of the name of the driver, in the file of the devices
+  scene::Place driver_at{1, 1};  ///< place of the driver's name in the file of the devices
   scene::Place calibration_at{1, 1};
 };
 
-/// All that a station's hands hold, as one YAML file: `devices: [{driver: ..., settings: {...},
-/// calibration: [...]}]` and `end_effectors: {...}`. Slices are counted over all devices.
+/// Devices and end-effectors of a station, as one YAML file: `devices: [{driver: ..., settings:
+/// {...}, calibration: [...]}]` and `end_effectors: {...}`. Slices are counted over all devices.
 struct StationDevices {
   std::string file;
   std::vector<DeviceConfig> devices;  ///< at least one
-  scene::Place devices_at{1, 1};      ///< of the list of them
+  scene::Place devices_at{1, 1};      ///< place of the list in the file
   EndEffectors end_effectors;
 };
 
@@ -41,7 +41,7 @@ std::string toYaml(const StationDevices& devices);
 struct DriverStack {
   struct Part {
     int device = 0;       ///< index in StationDevices::devices
-    int first_slice = 0;  ///< of the whole
+    int first_slice = 0;  ///< index of its first slice among all slices
     CalibratedDriver* calibrated = nullptr;
   };
   std::unique_ptr<Driver> driver;

@@ -17,7 +17,7 @@ class Node;
 namespace ergotic::tgr {
 
 constexpr int kMaxSlices = 64;
-constexpr double kAbsoluteForceLimitN = 200.0;  ///< what a slice can do; no setting exceeds it
+constexpr double kAbsoluteForceLimitN = 200.0;  ///< physical limit; no setting exceeds it
 
 /// Bits of what `exchange` met; 0: all went well.
 enum ExchangeFlag : std::uint32_t {
@@ -28,47 +28,46 @@ enum ExchangeFlag : std::uint32_t {
   kWriteFailed = 1U << 3U,    ///< at least one force was not taken by the device
 };
 
-/// N s/m, of a slice of which nobody knows more.
+/// Assumed damping of a slice without better data, N s/m.
 constexpr double kSupposedDamping = 2.0;
 
-/// How a simulated hand holds a slice; docs/tgr.md has the figures.
+/// Grip of a simulated hand at a slice; docs/tgr.md has the figures.
 enum class HandGrip : std::uint8_t { kConfigured, kSoft, kFirm, kQuick, kKey };
 
 constexpr int kMaxHandSources = 16;
-constexpr double kMaxTargetM = 0.1;  ///< a hand does not want to be further from rest
+constexpr double kMaxTargetM = 0.1;  ///< largest distance of a hand's target from rest, m
 
-/// What a player who has no device wants of the hand at one slice of a simulated device.
+/// Request of a player without a device: a motion of the hand at one slice of a simulated device.
 struct HandMove {
   static constexpr double kOnArrival = std::numeric_limits<double>::quiet_NaN();
   static constexpr double kMostGlideS = 60.0;
-  static constexpr double kPeakOfMean = 1.875;  ///< speed of a glide, of its mean one
+  static constexpr double kPeakOfMean = 1.875;  ///< peak speed of a glide over its mean speed
 
   int slice = 0;
-  double target_m = 0.0;  ///< where the hand shall be, within +-kMaxTargetM
-  /// When it shall be there, s, by the clock of the source: moves of one source keep their
+  double target_m = 0.0;  ///< target position of the hand, within +-kMaxTargetM
+  /// Arrival time at the target, s, by the clock of the source: moves of one source keep their
   /// distances in time, and the hand goes on straight lines between them. kOnArrival: `delay_s`
   /// after the move arrives in the tick.
   double time_s = kOnArrival;
   double delay_s = 0.0;
-  /// How long it takes from then on, on a path of minimum jerk that the hand feeds forward; 0: on a
-  /// straight line that ends then.
+  /// Duration of a minimum-jerk path that begins then, fed forward by the hand; 0: the hand moves
+  /// on a straight line that ends then.
   double glide_s = 0.0;
-  double timeout_s = 0.0;  ///< it lets go if it does not hear of its source for so long; 0: never
+  double timeout_s = 0.0;  ///< the hand lets go if its source is silent for so long; 0: never
   HandGrip grip = HandGrip::kConfigured;
   std::uint8_t source = 0;  ///< below kMaxHandSources
-  bool lets_go = false;     ///< of the slice, which is free then; the target has no effect
-  bool jumps = false;       ///< is there with the next tick, however far that is
+  bool lets_go = false;     ///< the hand lets go of the slice; the target has no effect
+  bool jumps = false;       ///< the target jumps with the next tick, however far that is
 
   /// Whether the fields are within their ranges for a device of so many slices.
   bool isValid(int slices) const noexcept;
 };
 
-/// What a process of its own needs to take the force off a device when this process cannot any
-/// more.
+/// Data with which another process can take the force off a device when this process no longer can.
 struct Guard {
-  std::vector<std::string> words;  ///< kind of the device, then what that kind needs
-  int file = -1;                   ///< open file that it needs, too; -1: none
-  std::int64_t life = 0;           ///< tells one opening of the device from the one before
+  std::vector<std::string> words;  ///< kind of the device, then the parameters of that kind
+  int file = -1;                   ///< open file that the other process also needs; -1: none
+  std::int64_t life = 0;           ///< distinguishes this opening of the device from the one before
 
   bool operator==(const Guard& other) const {
     return words == other.words && file == other.file && life == other.life;
@@ -99,7 +98,7 @@ class Driver {
   /// Number of slices, 1...kMaxSlices, constant.
   virtual int slices() const noexcept = 0;
 
-  /// One transaction: the forces of the last tick go out, positions come in.
+  /// Runs one transaction: the forces of the last tick go out, positions come in.
   /// \param[in]  forces     [slices] N, positive along the slice's axis (up); V if `isRaw`
   /// \param[out] positions  [slices] m, relative to the slice's rest; V if `isRaw`
   /// \return ExchangeFlag bits
@@ -109,8 +108,8 @@ class Driver {
   /// Zero force now and from now on: later exchanges send zero until `rearm`. Idempotent, from any
   /// thread or a signal's helper thread, also while exchange runs; takes at most one tick.
   virtual void makeSafe() noexcept = 0;
-  /// As makeSafe, for the tick itself: what takes a lock or more than its next exchange is left to
-  /// that. Realtime: yes. Thread: tick
+  /// As makeSafe, for the tick itself: work that takes a lock, or longer, is left to the tick's
+  /// next exchange. Realtime: yes. Thread: tick
   virtual void makeSafeInTick() noexcept { makeSafe(); }
 
   /// Allows force again after makeSafe; the caller's chain ramps it in. Realtime: yes. Thread: tick
@@ -120,11 +119,11 @@ class Driver {
   /// open.
   virtual int extraDelayTicks() const noexcept { return 0; }
 
-  /// What a guardian holds, see Guardian; empty if the device is without force as soon as this
-  /// process is. \pre open. Realtime: no. Thread: setup
+  /// Data for a guardian process, see Guardian; empty if the device has no force once this process
+  /// ends. \pre open. Realtime: no. Thread: setup
   virtual std::vector<Guard> guards() const { return {}; }
 
-  /// True if `exchange` speaks volts: a CalibratedDriver has to stand in front.
+  /// True if `exchange` speaks volts: a CalibratedDriver is needed in front.
   virtual bool isRaw() const noexcept { return false; }
 
   /// Slices that have no calibration, a bit each: they may not get force. Changes while ticks go
@@ -137,17 +136,17 @@ class Driver {
 
   /// Damping of a slice by itself, N s/m, known or supposed: what scenes may ask for rests on it.
   virtual double damping() const noexcept { return kSupposedDamping; }
-  /// As much of it as somebody has declared, N s/m; 0: nobody did. What may be given out to a hand
-  /// rests on it.
+  /// Declared part of that damping, N s/m; 0: none is declared. The passivity limits towards a hand
+  /// rely on this value.
   virtual double declaredDamping() const noexcept { return 0.0; }
 
-  /// Not null if the device says when ticks are due. Constant after open.
+  /// Clock of the device, if the device says when ticks are due; else null. Constant after open.
   virtual DeviceClock* clock() noexcept { return nullptr; }
 
-  /// What the gesture of a simulated device asks of the scene, in order of time: whoever plays the
-  /// scene sets it, each when `gestureTime` has come to it. Constant. Realtime: no. Thread: any
+  /// Parameter values that the gesture of a simulated device sets, in order of time: the player of
+  /// the scene sets each when `gestureTime` has reached it. Constant. Realtime: no. Thread: any
   virtual std::vector<GestureValue> gestureValues() const { return {}; }
-  /// How long that gesture has been played, s. Realtime: yes. Thread: any
+  /// Time for which that gesture has been played, s. Realtime: yes. Thread: any
   virtual double gestureTime() const noexcept { return 0.0; }
 
   /// Whether the slice is simulated, with a hand that `move` moves. Constant while open.

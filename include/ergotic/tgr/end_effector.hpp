@@ -20,31 +20,32 @@ enum class EndEffectorType : std::uint8_t {
   kHandle,  ///< 6 slices, 3 coordinates for each of its points, which are at least three
 };
 
-/// What stands on a group of slices and what of the scene it moves. The equations of each type are
-/// in docs/tgr.md.
+/// Configuration of an end-effector on a group of slices: its geometry, and the ports of the scene
+/// that it moves. The equations of each type are in docs/tgr.md.
 struct EndEffectorConfig {
   std::string name;
   EndEffectorType type = EndEffectorType::kKey;
-  std::vector<int> slices;         ///< of the device, in the order of the type
-  std::vector<std::string> ports;  ///< of the scene, one for each coordinate; empty name: none
-  double position_scale = 1.0;     ///< x_model = x / position_scale
-  double force_scale = 1.0;        ///< F_hand = force_scale F_model
-  double lever = 1.0;              ///< key, bow: m of the coordinate per m of the slice
-  double angle = 0.0;              ///< bow: between its slices' and its own axes, rad
-  double arm = 0.1;                ///< stick: from its pivot to where the slices push, m
-  double length = 0.3;             ///< stick: from its pivot to its tip, m
-  double rod = 0.15;               ///< ball, handle: length of each rod, m
-  double base_radius = 0.1;        ///< ball, handle: of the circle on which the slices stand, m
-  double platform_radius = 0.05;   ///< ball, handle: of the circle on which the rods end, m
+  std::vector<int> slices;  ///< slices of the device, in the order of the type
+  std::vector<std::string>
+      ports;                      ///< ports of the scene, one for each coordinate; empty name: none
+  double position_scale = 1.0;    ///< x_model = x / position_scale
+  double force_scale = 1.0;       ///< F_hand = force_scale F_model
+  double lever = 1.0;             ///< key, bow: m of the coordinate per m of the slice
+  double angle = 0.0;             ///< bow: between its slices' and its own axes, rad
+  double arm = 0.1;               ///< stick: from its pivot to where the slices push, m
+  double length = 0.3;            ///< stick: from its pivot to its tip, m
+  double rod = 0.15;              ///< ball, handle: length of each rod, m
+  double base_radius = 0.1;       ///< ball, handle: radius of the circle of slices, m
+  double platform_radius = 0.05;  ///< ball, handle: of the circle on which the rods end, m
   std::vector<Eigen::Vector3d> points;  ///< handle: where its points are, from its centre, m
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();  ///< in tgr_base, for the picture
   scene::Place place;
 };
 
-/// All end-effectors of a device. Slices and ports that none of them names stay as the scene says:
-/// a port with a slice moves with it.
+/// End-effectors of a device. Slices and ports that none of them names stay as the scene says: a
+/// port with a slice moves with it.
 struct EndEffectors {
-  std::string file;  ///< for messages
+  std::string file;  ///< name of the file, for messages
   std::vector<EndEffectorConfig> list;
 };
 
@@ -67,7 +68,7 @@ class Kinematics {
   /// \param[out] jacobian  [coordinates][slices] dx/dq, row by row
   /// \return false beyond the workspace; nothing is written then
   virtual bool forward(const double* q, double* x, double* jacobian) const noexcept = 0;
-  /// Where it is, in its own frame, for the picture. \pre forward(q) is true
+  /// Pose of the end-effector in its own frame, for display. \pre forward(q) is true
   virtual Eigen::Isometry3d pose(const double* q) const noexcept = 0;
 
   static constexpr int kMaxSlicesOfOne = 6;

@@ -10,7 +10,7 @@
 
 namespace ergotic::tgr {
 
-/// What can be made to go wrong between a device and its station. The numbers are part of the ROS
+/// Faults that can be injected between a device and its station. The numbers are part of the ROS
 /// interface (InjectFault.srv).
 enum class InjectedFault : std::uint8_t {
   kNotANumber = 0,  ///< position NaN
@@ -28,15 +28,15 @@ enum class InjectedFault : std::uint8_t {
 struct FaultOrder {
   InjectedFault kind = InjectedFault::kMissing;
   int slice = -1;          ///< -1: all
-  std::int64_t ticks = 1;  ///< how long; kUnplugged: until reconnect
-  double amount = 0.0;     ///< as the kind says
+  std::int64_t ticks = 1;  ///< duration; kUnplugged: until reconnect
+  double amount = 0.0;     ///< amount, in the unit of the kind
 };
 
 /// A device between which and the station faults can be injected. Without orders it is exactly the
 /// device inside.
 class FaultyDriver : public Driver {
  public:
-  /// What `inject` would refuse. Thread: command thread, after `open`
+  /// Checks whether `inject` accepts an order. Thread: command thread, after `open`
   /// \throws Exception if a number is out of its range
   virtual void check(const FaultOrder& order) const = 0;
   /// Takes effect with the next exchange, in place of an earlier order; but what is unplugged stays
@@ -46,7 +46,7 @@ class FaultyDriver : public Driver {
 };
 std::unique_ptr<FaultyDriver> makeFaultyDriver(std::unique_ptr<Driver> inside);
 
-/// By its name, as `frozen`.
+/// Returns the fault of a name, as `frozen`.
 /// \param others  names of faults that are not of this kind, for the message
 /// \throws Exception naming those that exist
 InjectedFault faultNamed(const std::string& name, const std::vector<std::string>& others = {});

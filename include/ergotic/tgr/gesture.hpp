@@ -50,15 +50,16 @@ GestureKind gestureKindOf(const std::string& path);
 /// A row `time_s,$name,value` of a gesture file. Whoever plays the scene sets its parameter: the
 /// device, which knows no scene, has no part in it.
 struct GestureValue {
-  double time_s = 0.0;  ///< since the gesture began
+  double time_s = 0.0;  ///< time since the gesture began
   std::string parameter;
   double value = 0.0;
-  std::string file;  ///< that it is from
+  std::string file;  ///< name of the file, for messages
   scene::Place name_at;
   scene::Place value_at;
 };
 
-/// Those of a gesture file, in order of time; none of a file of positions, and if no file is named.
+/// Reads the parameter values of a gesture file, in order of time; none from a file of positions,
+/// and none if no file is named.
 /// \throws TextError; Exception if the file cannot be read
 std::vector<GestureValue> readGestureValues(const std::string& path);
 

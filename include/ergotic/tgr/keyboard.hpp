@@ -32,7 +32,7 @@ namespace ergotic::tgr {
 /// `now_s` is a time in s, of one clock that does not go back. Thread: one
 class Keyboard {
  public:
-  /// What becomes of a message.
+  /// Result of a message.
   struct Played {
     Strokes strokes;
     std::vector<ParameterChange> changes;
@@ -40,24 +40,24 @@ class Keyboard {
     std::optional<int> program;  ///< 0...127
   };
 
-  /// Other notes and controls mean something from now on. What was learnt stays.
-  /// \return strokes that release all keys and let go of what controls moved
+  /// Uses another map of notes and controls from now on. Learnt bindings stay.
+  /// \return strokes that release all keys, and all hands that controls moved
   Strokes use(PlayMap map, double now_s);
 
   /// \param bytes  of a MIDI message. What means nothing here is passed over
   Played play(const std::uint8_t* bytes, int size, double now_s);
-  /// \param pad  tells gamepads apart, 0 or more
+  /// \param pad  number of the gamepad, 0 or more
   Played play(const GamepadMove& move, int pad, double now_s);
   /// A gamepad is gone: its notes end, and hands that its axes moved are let go of.
   Strokes unplug(int pad, double now_s);
   /// The lowest note, as it is given to `note`, that moves a hand.
   std::optional<int> noteOf(const HandWays::Hand& hand) const;
 
-  /// From somebody who has no channel.
+  /// Plays a note without a channel.
   /// \param note  0...127. \param velocity  0...127; 0: release
   Strokes note(int note, int velocity, double now_s);
   Strokes releaseAll(double now_s);
-  /// All hands have let go by themselves, and no key is down.
+  /// Resets the state after all hands have let go by themselves; no key is down then.
   void forgetHands();
 
   /// Binds controls to parameters, in place of what the map says of them.
@@ -75,14 +75,14 @@ class Keyboard {
     bool is_caught = false;  // by sostenuto
     double pressure = 0.0;
   };
-  /// What was last heard on a channel, which a note that begins there has at once.
+  /// Expression values last received on a channel; a note that begins on it starts with these.
   struct Expression {
     double bend = 0.0;
     double slide = 64.0 / 127.0;
     double pressure = 0.0;
   };
 
-  /// What is done with a gamepad.
+  /// State of one gamepad.
   struct Pad {
     std::set<int> buttons;  // that are down
     std::set<int> axes;     // that have moved since there is this map

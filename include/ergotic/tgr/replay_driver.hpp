@@ -8,9 +8,10 @@
 
 namespace ergotic::tgr {
 
-/// A device whose positions are a recorded gesture, one tick per exchange, whatever the forces.
-/// At the end it holds the last position and flags every exchange with kMissingSample. Closing and
-/// opening again goes on where it was. Realtime as `source` is.
+/// Makes a device whose positions are a recorded gesture, one tick per exchange, whatever the
+/// forces. At its end the device holds the last position and flags every exchange with
+/// kMissingSample. After closing and opening again it goes on at the same tick. Realtime as
+/// `source` is.
 std::unique_ptr<Driver> makeReplayDriver(std::unique_ptr<GestureSource> source);
 
 }  // namespace ergotic::tgr

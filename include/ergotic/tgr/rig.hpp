@@ -11,7 +11,7 @@
 
 namespace ergotic::tgr {
 
-constexpr int kMaxPorts = 128;  ///< of a scene that is played
+constexpr int kMaxPorts = 128;  ///< largest number of ports of a scene
 
 /// Between the slices of a device and the ports of a scene: end-effectors, scales, agents.
 /// Power passes unchanged but for the scales: with all of them 1,
@@ -27,7 +27,7 @@ class Rig {
   /// \return slices of these, a bit each; force on them is zero
   virtual std::uint64_t toModel(const double* slices, double time_s, double* ports) noexcept = 0;
 
-  /// By the Jacobian of the last toModel.
+  /// Maps forces to slices, by the transposed Jacobian of the last toModel.
   /// \param ports        [ports] N, in the model
   /// \param[out] slices  [slices] N
   virtual void toDevice(const double* ports, double* slices) const noexcept = 0;
@@ -40,16 +40,17 @@ class Rig {
 /// end-effector has the port, or its slice. Indices in Scene::ports.
 std::vector<int> takenPorts(const scene::Scene& scene, const EndEffectors& end_effectors);
 
-/// What a slice that moves something meets of a model: a stiffness or a damping, at the device.
+/// Stiffness or damping of a model as rendered at one slice, in the device's scale.
 struct Rendered {
   int slice = 0;
-  double alone = 0.0;  ///< when it moves and the others rest
-  /// The same where the slices of its end-effector move together in the worst way: the largest
-  /// eigenvalue. Slices of equal traits are passive if one of them would be with this.
+  double alone = 0.0;  ///< when this slice moves and the others rest
+  /// Largest eigenvalue over all slices of its end-effector: the value for their worst joint
+  /// motion. Slices of equal traits are passive if one of them would be with this.
   double together = 0.0;
 };
 
-/// Per slice in use, by the Jacobians at rest: sum J^T K_port J force_scale / position_scale.
+/// Computes the values of each slice in use, by the Jacobians at rest: sum J^T K_port J force_scale
+/// / position_scale.
 /// \param of_ports  [ports] N/m or N s/m, as of physics::PortCertificate (at the device, with the
 ///                  port's own scales)
 std::vector<Rendered> renderedAtSlices(const scene::Scene& scene,

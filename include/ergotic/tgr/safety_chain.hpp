@@ -58,7 +58,8 @@ class SafetyChain {
   double gain() const noexcept { return gate_.ramp(); }  ///< 0...1, of the ramp after engage
   FaultReason fault() const noexcept { return fault_; }
   int faultSlice() const noexcept { return fault_slice_; }  ///< -1: all of them, or none
-  /// Of which the last `limit` took away a force because its sensor stands still; -1: none.
+  /// Slice of which the last `limit` removed a force because its sensor value is constant; -1:
+  /// none.
   int mutedSlice() const noexcept { return muted_slice_; }
   /// \pre 0 <= slice < slices
   SliceReading reading(int slice) const noexcept {

@@ -9,19 +9,19 @@
 
 namespace ergotic::tgr {
 
-/// A picture of a device with what stands on it, as URDF: links `tgr_base`, `model`,
-/// `tgr_slice_<i>` with prismatic joints `slice_<i>`, and a link for each end-effector, named as it
-/// is, with a floating joint `<name>_mount` whose transform from `tgr_base` is
-/// `EndEffectorConfig::pose * Kinematics::pose(q)`. Slices of no end-effector carry the keys of a
-/// keyboard; slice 0 is its lowest C.
+/// Picture of a device with its end-effectors, as URDF: links `tgr_base`, `model`, `tgr_slice_<i>`
+/// with prismatic joints `slice_<i>`, and a link for each end-effector, named as it is, with a
+/// floating joint `<name>_mount` whose transform from `tgr_base` is `EndEffectorConfig::pose *
+/// Kinematics::pose(q)`. Slices of no end-effector carry the keys of a keyboard; slice 0 is its
+/// lowest C.
 /// \param slices  of the device, 1...kMaxSlices
 std::string urdfOf(const EndEffectors& end_effectors, int slices);
 
-/// Where that picture has a slice at position 0, in `tgr_base`, m; it moves along z.
+/// Place of a slice at position 0 in that picture, in `tgr_base`, m; the slice moves along z.
 /// \param index  of the slice, 0...slices - 1
 Eigen::Vector3d slicePlace(int index, int slices);
 
-/// Where that picture has the frame `model`, in `tgr_base`, m.
+/// Pose of the frame `model` in that picture, in `tgr_base`, m.
 Eigen::Isometry3d modelPose();
 
 }  // namespace ergotic::tgr

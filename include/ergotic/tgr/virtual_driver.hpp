@@ -32,20 +32,20 @@ struct VirtualSliceConfig {
   double hand_mass = 0.1;       ///< kg
   double hand_stiffness = 500;  ///< N/m
   double hand_damping = 18.0;   ///< N s/m: 0.7 of what is critical, with the slice's own
-  /// What sensor and actuator truly are, if the device speaks volts: what a calibration should
-  /// find.
+  /// True characteristics of sensor and actuator, if the device speaks volts: the result of a
+  /// perfect calibration.
   std::optional<SliceCalibration> volts;
 };
 
 struct VirtualDriverConfig {
   int slices = 12;
-  VirtualSliceConfig slice;                  ///< those that are not in `others`
+  VirtualSliceConfig slice;                  ///< slices that are not in `others`
   std::map<int, VirtualSliceConfig> others;  ///< slices that differ; all speak volts, or none does
   /// CSV `time_s,slice,target_m` or `tick,x0,...`: where the virtual hands want to be; empty:
   /// targets by setTarget only
   std::string gesture_file;
   double gesture_rate = 0.0;  ///< Hz, of the ticks of a CSV of positions; 0: the tick rate
-  std::uint64_t seed = 1;     ///< of the sensor noise
+  std::uint64_t seed = 1;     ///< seed of the sensor noise
   int extra_delay_ticks = 0;
   /// Name of a shared-memory segment of a device process (`virtual_tgr`); empty: the device lives
   /// inside the driver and is stepped by exchange, deterministically.
@@ -58,12 +58,12 @@ struct VirtualDriverConfig {
 /// \throws TextError from the gesture file, Exception if a setting is outside its range
 std::unique_ptr<Driver> makeVirtualDriver(const VirtualDriverConfig& config);
 
-/// What of the targets in a gesture file is not played as they are written, in full sentences:
+/// Warnings about targets of a gesture file that are not played as written, in full sentences: for
 /// slices that move nothing in the scene, targets beyond the end stops, rows after the end, no rows
-/// at all. Nothing for a file of positions.
+/// at all. None for a file of positions.
 /// \param slices_in_use  bit i: a port of the scene follows slice i
-/// \param seconds        how long is played
-/// \param late_s         how much later rows may be without a word, s
+/// \param seconds        duration of the render, s
+/// \param late_s         delay by which rows may exceed it without a warning, s
 /// \throws TextError from the gesture file
 std::vector<std::string> gestureWarnings(const VirtualDriverConfig& config,
                                          std::uint64_t slices_in_use,

@@ -10,12 +10,12 @@
 
 namespace ergotic::node {
 
-/// Takes the operator of a device through the calibration of one slice: where it stands, told by
-/// the operator, against what its sensor says, read here.
+/// Guides the operator of a device through the calibration of one slice: pairs of a position, given
+/// by the operator, and the sensor value, read here.
 /// Thread: command thread. Realtime: no
 class CalibrationGuide {
  public:
-  static constexpr int kReadings = 100;  ///< of a sample, one per `poll`
+  static constexpr int kReadings = 100;  ///< readings per sample, one per `poll`
   static constexpr double kUsualResidualM = 1e-4;
 
   /// \param raw_parts  the devices that speak volts
@@ -32,7 +32,7 @@ class CalibrationGuide {
   /// \param volts_per_newton  of the slice's amplifier; 0: as it was
   /// \throws Exception from `tgr::fit`: the calibration goes on
   tgr::SliceCalibration finish(double max_residual_m, double volts_per_newton);
-  /// Pushes the slice, which nobody holds, after `begin`. \param newtons  at most
+  /// Pushes the slice, which must be free, after `begin`. \param newtons  at most
   /// \throws Exception if it has no calibration, its full scale is not stated, or samples were
   ///         taken. Nothing is under way then
   void push(double newtons);

@@ -88,7 +88,7 @@ EndEffectorConfig fromMessage(std::size_t index, const EndEffector& message) {
   return config;
 }
 
-/// Refused before anything is read: nobody has so many slices.
+/// Checks the sizes before anything is read: no device has so many slices.
 void checkSizes(const std::vector<EndEffector>& messages) {
   const auto check = [](const std::string& what, std::size_t count, std::size_t most) {
     if (count > most) {

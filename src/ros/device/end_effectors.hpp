@@ -8,7 +8,7 @@
 
 #include "ergotic/tgr/end_effector.hpp"
 
-/// Between end-effectors and their messages.
+/// Conversion between end-effectors and their messages.
 namespace ergotic::node {
 
 geometry_msgs::Pose toPose(const Eigen::Isometry3d& pose);

@@ -13,16 +13,16 @@
 
 namespace ergotic::node {
 
-/// Where this program keeps files of its own, whoever asks for it: `$ROS_HOME/ergotic`, or
+/// Folder of this program's own files, whoever asks for it: `$ROS_HOME/ergotic`, or
 /// `~/.ros/ergotic`.
 std::string homeFolder();
 
-/// The devices of a station and what stands on their slices. The drivers go to the station, which
-/// this has to outlive: it holds their code.
+/// Devices of a station and the end-effectors on their slices. The drivers go to the station, which
+/// must not outlive this object: it holds their code.
 /// Thread: loader while it is made, then command thread. Realtime: no
 class Hands {
  public:
-  /// Makes the drivers; opens none.
+  /// Makes the drivers; does not open them.
   /// \throws Exception from the drivers, or naming those that exist
   Hands(tgr::StationDevices devices, bool allow_fault_injection);
 
@@ -45,7 +45,7 @@ class Hands {
   const tgr::StationDevices& config() const { return config_; }
   /// The devices that speak volts.
   const std::vector<tgr::DriverStack::Part>& rawParts() const { return drivers_.raw_parts; }
-  /// The first calibrated slice whose sign and scale no push has told.
+  /// First calibrated slice whose sign and scale no push has confirmed.
   std::optional<int> uncheckedSlice() const;
   /// \return null unless faults may be injected
   tgr::FaultyDriver* faulty() const { return drivers_.faulty; }

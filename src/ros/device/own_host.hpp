@@ -8,29 +8,29 @@
 
 namespace ergotic::node {
 
-/// Who can reach what listens here. Linux only. Realtime: no. Thread: any
+/// Access to the listening sockets of this process. Linux only. Realtime: no. Thread: any
 
-/// The sockets of this process that listen on these TCP ports hear only this host from now on,
-/// whatever address they are bound to.
-/// \return why some of them could not be told, else nothing
+/// Restricts the sockets of this process that listen on these TCP ports to connections from this
+/// host, whatever address they are bound to.
+/// \return reason if some of them could not be restricted, else nothing
 std::optional<std::string> hearOwnHostOnly(const std::vector<std::uint16_t>& ports);
 
 /// Whether every socket of this host that listens on a TCP port has an address of this host alone;
-/// false also if none listens, for then it is another host that does.
+/// false also if none listens, as then another host does.
 bool listensOnOwnHostOnly(std::uint16_t port);
 
 /// Whether this name or address of a host is the loopback interface, and nothing else.
 bool isLoopback(const std::string& host);
 
-/// ROS has no authentication: whoever reaches the nodes or the master of a station may do anything
-/// that its player may.
+/// Closes the station to other hosts. ROS has no authentication: every program that reaches the
+/// nodes or the master of a station may do anything that its player may.
 class OwnHost {
  public:
   /// Closes this process to other hosts, unless they are allowed.
   /// \pre ros::start was called
   explicit OwnHost(bool allow_remote);
 
-  /// Why others may call, or nothing: then force may be let out. The master may have changed.
+  /// Reason why others may call, or nothing: force is permitted then. The master may have changed.
   std::optional<std::string> breach() const;
 
  private:

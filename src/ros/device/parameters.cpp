@@ -61,9 +61,8 @@ std::map<std::string, rt::Isa> isas() {
 // own.
 const std::vector<std::string> kReadByOthers = {"diagnostic_period", "num_worker_threads"};
 
-/// On or off, as YAML says it: it makes a boolean of `on`, `yes`, `true` and their contraries
-/// unless they are in quotes, and `roslaunch` of `true` and `false` alone. Nothing of what is
-/// neither.
+/// Reads a switch. YAML makes a boolean of `on`, `yes`, `true` and their opposites unless they are
+/// quoted, `roslaunch` only of `true` and `false`. \return nothing if the value is neither
 std::optional<bool> switchOf(const Value& given) {
   if (given.getType() == Value::TypeBoolean) {
     return static_cast<const bool&>(given);
@@ -96,7 +95,7 @@ std::string shown(double number) {
   return text.str();
 }
 
-/// What was given, in words.
+/// Describes a given value in words.
 std::string described(const Value& given) {
   switch (given.getType()) {
     case Value::TypeBoolean:
@@ -119,7 +118,7 @@ std::string described(const Value& given) {
   }
 }
 
-/// What YAML took for something else than a word.
+/// Advice to quote a word that YAML took for another type; empty if it did not.
 std::string howToQuote(const Value& given) {
   switch (given.getType()) {
     case Value::TypeBoolean:
@@ -214,7 +213,7 @@ class Reader {
     value = found->second;
   }
 
-  /// After all others: what none of them asked for is misspelt.
+  /// Refuses parameters that no reader asked for, as misspelt. To be called after all readers.
   void refuseUnread() {
     for (const std::string& name : kReadByOthers) {
       take(name);
@@ -308,7 +307,7 @@ class Writer {
                                     [&](const auto& choice) { return choice.second == value; });
     entry(name, found->first);
   }
-  /// Not "best", which means another one elsewhere.
+  /// Writes the name of the instruction set, not "best", which differs between machines.
   void choice(const char* name, rt::Isa value, const std::map<std::string, rt::Isa>& /*choices*/) {
     entry(name, nameOf(value));
   }
@@ -345,7 +344,7 @@ void visitSafety(Visitor& on, Config& safety) {
   on.integer("max_missing", safety.max_missing, 0, 1000);
 }
 
-/// All but the model and what makes the devices. \param p  parameters, constant for a Writer
+/// Visits all parameters but the model and the devices. \param p  parameters, constant for a Writer
 template <class Visitor, class P>
 void visitParameters(Visitor& on, P& p) {
   on.number("audio_rate", p.audio_rate, 8000.0, 192000.0);
@@ -417,7 +416,7 @@ Text textOrFile(const std::string& value, const std::string& inline_name) {
   return {files::readFile(value, scene::kMaxTextBytes), value};
 }
 
-/// One device without calibration, as `driver` and the settings of the virtual one say.
+/// Makes one device without calibration, from `driver` and the settings of the virtual device.
 tgr::StationDevices plainDevice(const Parameters& p) {
   const bool is_virtual = !p.gesture.empty() || !p.virtual_shared_memory.empty();
   if (is_virtual && !p.driver_settings.empty()) {

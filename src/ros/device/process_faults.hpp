@@ -8,11 +8,12 @@ namespace ergotic::node {
 
 /// \throws Exception if it is not within 0.001...10
 void requireStop(double seconds);
-/// As SIGSTOP would, and SIGCONT after `seconds`, which another process sends. Blocks as long.
+/// Stops this process as SIGSTOP does; another process sends SIGCONT after `seconds`. Blocks as
+/// long.
 /// \throws DeviceError if that process does not start
 void stopThisProcess(double seconds);
 
-/// As SIGKILL would. Does not return.
+/// Kills this process as SIGKILL does. Does not return.
 [[noreturn]] void killThisProcess();
 
 }  // namespace ergotic::node

@@ -101,8 +101,8 @@ void Display::drawShapes(const ::ros::Time& stamp) {
   end_effector_shapes_.publish(all);
 }
 
-/// What was there before is erased by the message that brings the new: a subscriber that is slow
-/// for a moment gets both or neither.
+/// Publishes the markers of a frame. The message that brings a new picture also erases the old one:
+/// a subscriber that is slow for a moment gets both or neither.
 void Display::drawMarkers(const ModelState& motion) {
   const ::ros::Time stamp = motion.header.stamp;
   const auto& model = picture_->markers.draw(motion.displacement, stamp);

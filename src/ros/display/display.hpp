@@ -18,27 +18,27 @@
 
 namespace ergotic::node {
 
-/// What a model looks like. It is made where the model is loaded, for that takes time as well.
+/// Picture of a model. It is made by the thread that loads the model, as that takes time as well.
 struct Picture {
   ModelStructure structure;  ///< without a stamp
   Markers markers;
   Outlines outlines;
 };
 
-/// Draws what plays, in a thread of its own: however long a picture takes, nothing else waits for
-/// it. Frames that come meanwhile are left out, but for the newest.
-/// Thread: command thread, all but the constructor. None of these waits for a picture
+/// Draws the model that plays, in a thread of its own: however long a picture takes, nothing else
+/// waits for it. Frames that arrive meanwhile are dropped, but for the newest.
+/// Thread: command thread, all but the constructor. None of these functions waits for a picture
 class Display {
  public:
   Display(const ::ros::NodeHandle& node, const FrameNames& names);
 
-  /// Another model plays from now on; null: none.
+  /// Shows another model from now on; null: none.
   void show(std::shared_ptr<Picture> picture);
-  /// These end-effectors stand on the slices from now on.
+  /// Shows other end-effectors from now on.
   void show(const tgr::EndEffectors& end_effectors);
-  /// Whether anybody looks.
+  /// Whether there is a subscriber.
   bool isWatched() const;
-  /// How the model that was shown last stands. It is copied if anybody looks.
+  /// Shows a motion frame of the last model. It is copied only if there is a subscriber.
   void show(const station::MotionFrame& motion);
 
  private:

@@ -13,7 +13,7 @@
 
 namespace ergotic::node {
 
-/// Where end-effectors are, for tf, and what they look like in their own frames, for rviz.
+/// Poses of end-effectors, for tf, and their shapes in their own frames, for rviz.
 /// The frame of each has its name, behind the prefix of all frames, and `tgr_base` as its parent.
 class EndEffectorFrames {
  public:
@@ -22,7 +22,7 @@ class EndEffectorFrames {
   explicit EndEffectorFrames(const tgr::EndEffectors& end_effectors,
                              const FrameNames& names = FrameNames());
 
-  /// Beyond its workspace an end-effector stays where it was last.
+  /// Poses at a snapshot; beyond its workspace an end-effector stays at its last pose.
   const std::vector<geometry_msgs::TransformStamped>& at(const station::Snapshot& snapshot,
                                                          const ::ros::Time& stamp);
   const visualization_msgs::MarkerArray& shapes(const ::ros::Time& stamp);

@@ -26,10 +26,10 @@ class FrameNames {
 
 geometry_msgs::Transform toTransform(const Eigen::Isometry3d& pose);
 
-/// Where `model` is in `tgr_base`, for ever.
+/// Pose of `model` in `tgr_base`, constant.
 geometry_msgs::TransformStamped modelFrame(const FrameNames& names, const ::ros::Time& stamp);
 
-/// Where the slices of a device are, for tf: `tgr_slice_<i>` in `tgr_base`, as its URDF says.
+/// Poses of the slices of a device, for tf: `tgr_slice_<i>` in `tgr_base`, as its URDF says.
 class SliceFrames {
  public:
   SliceFrames() = default;

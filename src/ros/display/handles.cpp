@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::size_t kAxes = 3;
 
-/// What moves a port: a coordinate of an end-effector, or a slice (no name); -1: nothing does.
+/// Mover of a port: a coordinate of an end-effector, or a slice (no name); -1: none.
 struct Mover {
   std::string end_effector;
   int index = -1;

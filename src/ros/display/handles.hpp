@@ -8,7 +8,7 @@
 
 namespace ergotic::node {
 
-/// What of a scene hands move under these end-effectors, one entry per module.
+/// Lists what hands move of a scene under these end-effectors, one entry per module.
 Handles handlesOf(const scene::Scene& scene, const tgr::EndEffectors& end_effectors);
 
 }  // namespace ergotic::node

@@ -13,7 +13,7 @@
 
 namespace ergotic::node {
 
-/// Whether a module is a mode that is not drawn: what it stands for is seen by its outline.
+/// Whether a module is a mode that is not drawn, as the outline of its body shows it.
 bool isModeOfOutline(const scene::Scene& scene, int mat);
 
 /// Draws a scene for rviz: per section one POINTS and one LINE_LIST, in chunks of at most
@@ -21,7 +21,7 @@ bool isModeOfOutline(const scene::Scene& scene, int mat);
 class Markers {
  public:
   static constexpr std::size_t kChunkPoints = 16000;
-  /// After which what is drawn no more is gone, whoever missed that it was erased, s.
+  /// Time after which an erased marker vanishes even if the erasing message was missed, s.
   static constexpr double kLifetimeS = 1.0;
 
   /// \param zoom  of x about x = 0 where modules move along x alone, as maps exaggerate height:

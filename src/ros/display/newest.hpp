@@ -9,12 +9,12 @@
 
 namespace ergotic::node {
 
-/// Acts on news in a thread of its own. Who tells them never waits until it has acted: what comes
-/// meanwhile is put together, and acted on as one.
+/// Processes news in a thread of its own. The sender never waits for that: news that arrive
+/// meanwhile are merged, and processed together.
 template <class News>
 class Newest {
  public:
-  /// \param act  gets all that was told since it was called last. Thread: the own one
+  /// \param act  gets all news since its last call. Thread: the own one
   explicit Newest(std::function<void(News&)> act)
       : act_(std::move(act)), thread_([this] { run(); }) {}
   /// Waits until it has acted on what it began with; the rest is forgotten.
@@ -29,7 +29,7 @@ class Newest {
   Newest(const Newest&) = delete;
   Newest& operator=(const Newest&) = delete;
 
-  /// \param change  adds to a News that nobody has acted on. Thread: any
+  /// \param change  adds to a News that is not processed yet. Thread: any
   template <class Change>
   void tell(const Change& change) {
     {

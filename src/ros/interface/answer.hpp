@@ -14,7 +14,7 @@ struct Answer {
   std::string message;
 };
 using Promise = std::shared_ptr<std::promise<Answer>>;
-/// \param promise  null: nobody waits
+/// \param promise  null: no caller waits
 inline void answer(const Promise& promise, bool ok, std::string message) {
   if (promise) {
     promise->set_value({ok, std::move(message)});

@@ -10,14 +10,15 @@
 
 namespace ergotic::node {
 
-/// What was known when a call came in.
+/// State at the time when a call arrived.
 struct Arrival {
   std::int64_t time_ns = 0;    ///< CLOCK_MONOTONIC
-  station::Ticket ticket = 0;  ///< of the interlock
+  station::Ticket ticket = 0;  ///< ticket of the interlock
 };
 
-/// In front of a callback queue: notes of every call when it came, however long it waits there. An
-/// emergency stop in between is then later than the call, whoever is served first.
+/// Filter in front of a callback queue: it stores the arrival of every call, however long the call
+/// waits there. An emergency stop in between is then later than the call, whichever is served
+/// first.
 class ArrivalQueue : public ::ros::CallbackQueueInterface {
  public:
   /// \param next  outlives this
@@ -28,7 +29,7 @@ class ArrivalQueue : public ::ros::CallbackQueueInterface {
   void addCallback(const ::ros::CallbackInterfacePtr& callback, std::uint64_t owner) override;
   void removeByID(std::uint64_t owner) override { next_.removeByID(owner); }
 
-  /// Of the call that this thread serves. \pre it came through an ArrivalQueue
+  /// Arrival of the call that this thread serves. \pre it came through an ArrivalQueue
   static const Arrival& ofThisCall();
 
  private:

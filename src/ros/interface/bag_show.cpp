@@ -23,7 +23,7 @@ constexpr std::int64_t kLookForOnlookersNs = 50'000'000;
 constexpr std::int64_t kBetweenShowsNs = 1'000'000'000;  // before it begins again
 constexpr bool kShowIsLatched = true;
 
-/// What was played once may be shown, whatever is known of it.
+/// Accepts every model: a model that has been played may be shown, whatever its certificate.
 station::PerformerPolicy policyOfShows() {
   station::PerformerPolicy policy;
   policy.allow_unproven = true;

@@ -21,16 +21,16 @@
 namespace ergotic::node {
 
 /// Shows a recorded performance by the topics of a station, in its time: the model is built anew
-/// from the bag and stepped through it, whatever pictures were recorded. It begins when somebody
-/// looks. Thread: any; it has one of its own
+/// from the bag and stepped through it, whatever pictures were recorded. It begins with the first
+/// subscriber. Thread: any; it has one of its own
 class BagShow {
  public:
   struct Settings {
     std::string bag;
-    std::string station;  ///< whose recording; empty: the only one
+    std::string station;  ///< name of the recorded station; empty: the only one
     std::string tf_prefix;
     double display_zoom = 5.0;
-    bool loop = false;  ///< from the beginning again at its end
+    bool loop = false;  ///< begins anew at the end
   };
 
   BagShow(const ::ros::NodeHandle& node, const Settings& settings);

@@ -31,7 +31,7 @@ const char kWasWithdrawn[] = "no answer within 5 s: the request is withdrawn";
 const char kWasBegun[] =
     "no answer within 5 s: the request was begun, and what it asks for may still come";
 
-/// Whether a request is carried out is settled once, by who comes first.
+/// State of a request, which is executed or withdrawn, whichever comes first.
 enum class Claim : std::uint8_t { kWaits, kBegun, kWithdrawn };
 
 bool settle(std::atomic<Claim>& claim, Claim to) {
@@ -99,7 +99,8 @@ Answer CommandThread::ask(const Request& request, std::int64_t deadline_ns) {
   }
 }
 
-/// Whoever got no answer must not meet force later.
+/// Asks for force; if the caller gets no answer in time, force is stopped, so that none comes
+/// later.
 Answer CommandThread::askForForce(const ForceRequest& request, const Request& ask_for) {
   Answer answer = ask(ask_for, request.arrival.time_ns + kAnswerTimeoutNs);
   if (answer.message == kWasWithdrawn || answer.message == kWasBegun) {
@@ -297,7 +298,7 @@ void CommandThread::playGamepad(int pad, const tgr::GamepadMove& move) {
   grant(controller_.playGamepad(pad, move));
 }
 
-/// All but another program.
+/// Grants all wishes but that for another program.
 void CommandThread::grant(const PlayersWishes& wishes) {
   for (const auto& [parameter, value] : wishes.parameters) {
     setParameterSoon(parameter, value);
@@ -308,8 +309,8 @@ void CommandThread::grant(const PlayersWishes& wishes) {
   }
 }
 
-/// What watches may fail by itself, as where the time of ROS cannot be: no reason to take force
-/// away.
+/// Publishes diagnostics, which may fail without reason to take force away, as when the time of ROS
+/// is out of range.
 void CommandThread::diagnose() {
   try {
     diagnostics_.refresh(publishers_.status(), controller_.engine());

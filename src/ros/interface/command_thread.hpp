@@ -55,19 +55,19 @@ class CommandThread {
   Answer setParameter(const std::string& name, double value);
   /// \throws Exception if nothing plays, or it does not answer
   ParametersNow parametersNow();
-  /// As those of StationController.
+  /// As StationController::recall.
   Answer recall(const PresetValues& values, double seconds);
   Answer undo();
   /// Master volume of the sound at JACK, 0...1.
   Answer setVolume(double volume);
-  /// Puts other end-effectors on the slices; answers when they are in place, with force at zero.
+  /// Puts other end-effectors on the slices; answers when that is done, with force at zero.
   Answer configure(const tgr::EndEffectors& end_effectors);
   Calibrate::Response calibrate(const Calibrate::Request& request, const Arrival& arrival);
   Answer inject(const InjectFault::Request& request);
-  /// Records what is played; a replay answers when it begins to sound.
+  /// Records the performance; a replay answers when its sound begins.
   Take::Response take(const Take::Request& request);
 
-  /// What a new model must fit.
+  /// Properties of the station that a new model must fit.
   struct Terms {
     physics::Rates rates;
     int slices = 0;
@@ -75,7 +75,7 @@ class CommandThread {
     tgr::EndEffectors end_effectors;
     Parameters parameters;
     bool can_hurt = true;    ///< see Hands
-    std::string scene_file;  ///< of the model that plays
+    std::string scene_file;  ///< scene of the model that plays
   };
   /// \return nothing if no engine runs
   /// \throws Exception if it does not answer
@@ -83,7 +83,7 @@ class CommandThread {
 
   // Thread: any. None of these waits.
 
-  /// Says why nothing plays, to those who look at the status. No effect while something does.
+  /// Publishes in the status why nothing plays. No effect while a model plays.
   void tell(const std::string& message);
   /// Force to zero at once, latched. \return false if there is no device
   bool makeSafe(tgr::FaultReason reason) { return controller_.makeSafe(reason); }
@@ -108,29 +108,30 @@ class CommandThread {
   std::optional<int> tap(const std::string& end_effector, int index, int velocity) {
     return controller_.tap(end_effector, index, velocity);
   }
-  /// Plays what came in by MIDI. \return the program that somebody chose last. Thread: one, any
+  /// Plays received MIDI messages. \return the program chosen last. Thread: one, any
   std::optional<int> playMidi();
-  /// Plays what is done with a gamepad. \param pad  tells them apart, 0 or more
+  /// Plays an event of a gamepad. \param pad  number of the gamepad, 0 or more
   void playGamepad(int pad, const tgr::GamepadMove& move);
-  /// It lets go of everything.
+  /// Unplugs a gamepad; all that it holds is released.
   void unplugGamepad(int pad) { controller_.unplugGamepad(pad); }
-  /// The next control that somebody moves shall move this parameter; empty: none shall.
+  /// Binds the next control that a player moves to this parameter; empty: stops waiting.
   Answer learnControl(const std::string& parameter) { return controller_.learnControl(parameter); }
-  /// \param map  of notes, path or YAML text. \return what is wrong with it, or an empty text
+  /// \param map  map of notes, path or YAML text. \return an error, or an empty text
   std::string usePlayMap(const std::string& map) { return controller_.usePlayMap(map); }
-  /// Who owns the state of force.
+  /// Owner of the state of force.
   const std::shared_ptr<station::Interlock>& interlock() const { return interlock_; }
-  /// The presence switch is held, or not.
+  /// Reports whether the presence switch is held.
   void tellPresence(bool is_held) { controller_.tellPresence(is_held); }
 
-  /// Forces to zero, device closed, no engine taken any more; waits for it, 0.9 s at most.
+  /// Sets forces to zero, closes the device, and accepts no engine any more; waits for it, 0.9 s at
+  /// most.
   /// Thread: any
   void close();
 
  private:
   struct Task {
     std::function<void()> run;
-    std::int64_t deadline_ns = 0;  ///< it is dropped when it comes later; CLOCK_MONOTONIC
+    std::int64_t deadline_ns = 0;  ///< a later task is dropped; CLOCK_MONOTONIC
   };
   using Request = std::function<void(const Promise&)>;
 

@@ -14,13 +14,13 @@
 
 namespace ergotic::node {
 
-/// Lets no thread of this process wait for a terminal: what it logs is written by a thread of its
-/// own. A terminal that is held (Ctrl-S) or a pipe that nobody reads would otherwise hold the
-/// thread that reads the sockets at its next warning, and nobody could be heard who wants to stop.
-/// What does not fit is lost. Thread: any
+/// Keeps the threads of this process from waiting for a terminal: a thread of its own writes the
+/// log. A terminal that is held (Ctrl-S) or a pipe without a reader would otherwise block the
+/// thread that reads the sockets at its next warning, and a request to stop would not be received.
+/// Lines that do not fit are lost. Thread: any
 class Console : private console_bridge::OutputHandler {
  public:
-  /// The one of this process, which stations share.
+  /// Console of this process, shared by its stations.
   static std::shared_ptr<Console> ofThisProcess();
   ~Console() override;  ///< writes what waits
   Console(const Console&) = delete;
@@ -28,7 +28,7 @@ class Console : private console_bridge::OutputHandler {
 
  private:
   using Print = decltype(::ros::console::backend::function_print);
-  /// What rosconsole wants to have written.
+  /// A log line from rosconsole.
   struct Line {
     void* logger = nullptr;
     ::ros::console::Level level = ::ros::console::levels::Info;
@@ -39,7 +39,7 @@ class Console : private console_bridge::OutputHandler {
   };
 
   Console();
-  /// What roscpp finds wrong with headers.
+  /// Logs errors that roscpp finds in headers.
   void log(const std::string& text,
            console_bridge::LogLevel level,
            const char* file,

@@ -66,7 +66,8 @@ const tgr::EndEffectors& StationController::endEffectors() const {
                                  : configurations_.back().end_effectors;
 }
 
-/// Which end-effectors are the newest cannot be told until those have come that come with a model.
+/// Refuses while another model is coming with end-effectors of its own, as the newest are unknown
+/// then.
 void StationController::requireNoneComing() const {
   const auto brings = [](const Incoming& incoming) {
     return incoming.with.end_effectors.has_value();
@@ -171,7 +172,8 @@ void StationController::begin(int slice) {
   interlock_->stop();  // an engage may be on its way; later ones are refused
 }
 
-/// A push is a force: it is for those who could engage, and ends when somebody takes force away.
+/// Starts a push to check a calibration. As a push is a force, it needs the right to engage, and
+/// ends when force is taken away.
 void StationController::check(const Calibrate::Request& request,
                               const Arrival& arrival,
                               const Promise& promise) {
@@ -202,7 +204,7 @@ std::string StationController::finish(const Calibrate::Request& request,
   return keep(request.file);
 }
 
-/// What becomes of a calibration that is in use.
+/// Saves a calibration that is in use. \return the result, in words
 std::string StationController::keep(const std::string& file) {
   if (file.empty()) {
     return "in use; no file was asked for";

@@ -108,7 +108,8 @@ std::string StationController::hold(const std::vector<Holders::Wish>& wishes) {
   return "";
 }
 
-/// None at a device where a person may be: what holds the model would push there, too.
+/// Modules that can be held; none at a device where a person may be, as holding the model would
+/// push there, too.
 std::vector<std::uint8_t> StationController::modulesToHold() const {
   return engine_->hands().canHurt() ? std::vector<std::uint8_t>()
                                     : modulesThatCanBeHeld(*playing_->instrument);
@@ -177,7 +178,7 @@ void StationController::unplugGamepad(int pad) {
   play(keyboard_.unplug(pad, nowS()), kAtOnce);
 }
 
-/// What it does besides strokes.
+/// Executes the results of a message that are not strokes.
 void StationController::play(const tgr::Keyboard::Played& played, PlayersWishes& wishes) {
   for (const tgr::ParameterChange& change : played.changes) {
     if (const auto range = ranges_.find(change.parameter); range != ranges_.end()) {
@@ -237,7 +238,7 @@ std::string StationController::readPlayMap(const std::string& map) {
   }
 }
 
-/// \param keeps_the_players  the map that somebody asked for stays
+/// \param keeps_the_players  a map that was requested explicitly stays
 void StationController::findPlayMap(const scene::Scene& scene, bool keeps_the_players) {
   std::string map;
   {

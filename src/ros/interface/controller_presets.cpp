@@ -38,7 +38,7 @@ bool StationController::change(std::size_t index, double value, Change change) {
   return true;
 }
 
-/// As `change`, and what was there before can be undone; a morph leaves it alone from now on.
+/// Changes a parameter, as `change`, with undo; a morph excludes it from now on.
 bool StationController::set(std::size_t index, double value, Change change) {
   const std::vector<double> before = parameters_;
   if (!this->change(index, value, std::move(change))) {
@@ -52,7 +52,7 @@ bool StationController::set(std::size_t index, double value, Change change) {
   return true;
 }
 
-/// Of the parameters that are not as their scene begins.
+/// Values of the parameters that differ from those of the scene.
 PresetValues StationController::changedValues() const {
   PresetValues values;
   const auto& known = submitted_->instrument->scene().parameters;
@@ -64,7 +64,7 @@ PresetValues StationController::changedValues() const {
   return values;
 }
 
-/// For a model that is about to play. \return what of them it does not get, in words
+/// Restores values in a model that is about to play. \return values that it does not get, in words
 std::string StationController::bringBack(const PresetValues& values) {
   const auto& known = submitted_->instrument->scene().parameters;
   FittingValues fitting = fittingValues(values, known);
@@ -148,7 +148,7 @@ void StationController::undo(const Promise& promise) {
   moveTo(targets, 0.0, {"the last change of parameters is undone", promise});
 }
 
-/// In place of the morph that is under way.
+/// Starts a morph, in place of the one that is under way.
 void StationController::moveTo(const std::map<std::size_t, double>& values,
                                double seconds,
                                Change change) {
@@ -193,14 +193,14 @@ void StationController::pollMorph() {
   endMorph();
 }
 
-/// Who waits for a morph that is over, and whose last step did not tell, hears of it.
+/// Answers the caller who waits for a morph that is over, if the last step did not.
 void StationController::endMorph() {
   if (morph_.isOver() && morphed_.promise) {
     answer(std::exchange(morphed_.promise, nullptr), true, morphed_.done);
   }
 }
 
-/// Those of another scene.
+/// Clears morph and history, when another scene is loaded.
 void StationController::forgetChanges() {
   morph_ = {};
   answer(std::exchange(morphed_.promise, nullptr), false, "another model was loaded meanwhile");

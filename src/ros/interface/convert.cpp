@@ -230,7 +230,7 @@ Event toEvent(const station::Event& event, const scene::Scene* scene) {
 
 namespace {
 
-/// Of a module, or of a place of an outline behind them.
+/// Name of a module, or of a point of the outlines, which follow the modules.
 std::string nameOfModule(const scene::Scene& scene, std::size_t module) {
   if (module < scene.mats.size()) {
     return scene.mats[module].name;

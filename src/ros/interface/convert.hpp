@@ -15,18 +15,18 @@
 #include "ergotic/station/station.hpp"
 #include "ros/display/display.hpp"
 
-/// From our plain structs to messages. Stamps are the caller's.
+/// Conversion of plain structs to messages. The caller sets the stamps.
 namespace ergotic::node {
 
-/// The message; `Parameters` are those of the node.
+/// Name of the message; `Parameters` are those of the node.
 using ParametersMessage = ::ergotic::Parameters;
 
 ModelStructure toModelStructure(const scene::Scene& scene, const physics::Rates& rates);
 
-/// What an instrument looks like. \param zoom  of Markers
+/// Makes the picture of an instrument. \param zoom  of Markers
 std::shared_ptr<Picture> toPicture(const physics::Instrument& instrument, double zoom);
 
-/// Names, ranges and units of what can be changed while it plays.
+/// Names, ranges and units of the parameters that can be changed while the scene plays.
 /// \param values  now in force, one for each
 ParametersMessage toParameters(const scene::Scene& scene, const std::vector<double>& values);
 

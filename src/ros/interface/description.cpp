@@ -14,7 +14,7 @@ namespace {
 const char kDescriptionName[] = "robot_description";
 constexpr bool kDescriptionIsLatched = true;
 
-/// As the node remaps it.
+/// Name of the parameter in the parent namespace, as the node remaps it.
 std::string parameterBeside(const ::ros::NodeHandle& private_node) {
   const std::string beside = ::ros::names::parentNamespace(private_node.getNamespace());
   return private_node.resolveName(::ros::names::append(beside, kDescriptionName));

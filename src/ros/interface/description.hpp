@@ -11,16 +11,16 @@
 
 namespace ergotic::node {
 
-/// A picture of the device and its end-effectors, as URDF: the parameter `robot_description`,
-/// beside the node, for whoever starts to look, and then the topic of that name, for whoever looks
-/// already. Thread: any, but never the command thread
+/// Picture of the device and its end-effectors, as URDF: the parameter `robot_description` beside
+/// the node, for programs that start later, and then the topic of that name, for subscribers.
+/// Thread: any, but never the command thread
 class Description {
  public:
   explicit Description(const ::ros::NodeHandle& private_node);
 
   // Both ask the master, who may take his time or be gone.
 
-  /// What stands there now, if anything plays.
+  /// Publishes the present end-effectors, if anything plays.
   void update(CommandThread& command_thread);
   /// \param slices  of the device
   void show(const tgr::EndEffectors& end_effectors, int slices);

@@ -12,7 +12,7 @@
 
 namespace ergotic::node {
 
-/// What /diagnostics says: force, real time, sound, model; once a second, and at once when the
+/// Publisher of /diagnostics: force, real time, sound, model; once a second, and at once when the
 /// state of the force changes.
 /// Thread: command thread, all but the constructor
 class Diagnostics {
@@ -22,7 +22,7 @@ class Diagnostics {
               const std::string& name);
 
   /// Publishes if a second has passed, or the state of the force has changed.
-  /// \param engine  asked only then; null: nothing plays
+  /// \param engine  used only then; null: nothing plays
   void refresh(const Status& status, const Engine* engine);
 
  private:

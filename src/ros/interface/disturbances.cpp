@@ -19,7 +19,7 @@ constexpr DisturbanceKind kDisturbances[] = {{Event::LATE_TICK, "late ticks"},
                                              {Event::UNDERRUN, "underruns of the sound"},
                                              {Event::AUDIO_SKIPPED, "periods left out by JACK"}};
 
-/// As many as there are: none.
+/// Index in kDisturbances; its size if the event is none.
 std::size_t kindOfDisturbance(const Event& event) {
   const auto* const found =
       std::find_if(std::begin(kDisturbances), std::end(kDisturbances),

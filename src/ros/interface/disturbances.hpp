@@ -9,8 +9,9 @@
 
 namespace ergotic::node {
 
-/// Late ticks, stalls and missing sound: the first of each kind is told, the others are counted,
-/// once a minute, so that a log in which they are frequent still shows everything else. Thread: one
+/// Log of late ticks, stalls and missing sound: the first of each kind is reported, the others are
+/// counted, once a minute, so that the log still shows everything else if they are frequent.
+/// Thread: one
 class Disturbances {
  public:
   static bool isOne(const Event& event);
@@ -19,7 +20,7 @@ class Disturbances {
   bool isFirst(const Event& event);
 
   /// "in the last minute: 12 late ticks, 3 stalls"; empty before a minute is over, and if there was
-  /// nothing but what was told. \param now_ns  of CLOCK_MONOTONIC
+  /// nothing but what was reported. \param now_ns  of CLOCK_MONOTONIC
   std::string ofLastMinute(std::int64_t now_ns);
 
  private:

@@ -42,7 +42,7 @@ station::TimerOptions timerOptions(const Parameters& parameters) {
   return options;
 }
 
-/// As asked for, unless ticks come in bursts between which nothing is wrong.
+/// Watchdog period as requested, or longer if the device's ticks come in bursts.
 double watchdogPeriod(double asked_s, tgr::Driver& driver) {
   const tgr::DeviceClock* const clock = driver.clock();
   const double least_s =
@@ -157,8 +157,8 @@ void Engine::startWatchdog() {
   watchdog_->arm();
 }
 
-/// In place of one that there is. Where none can be started there is no force.
-/// \return what keeps it from starting
+/// Starts a guardian, in place of an earlier one. Without a guardian there is no force.
+/// \return reason if it does not start
 std::string Engine::startGuardian() {
   const std::vector<tgr::Guard> guards = station_->driver().guards();
   std::unique_ptr<tgr::Guardian> next;
@@ -184,7 +184,7 @@ std::string Engine::startGuardian() {
   return problem;
 }
 
-/// Another in place of one that is lost, as soon as one can be started. Force waits for a recover.
+/// Replaces a lost guardian as soon as another one can be started. Force waits for a recover.
 void Engine::keepGuardian() {
   if (!guardian_lost_ || rt::monotonicNs() < guardian_retry_ns_) {
     return;

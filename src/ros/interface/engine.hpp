@@ -68,7 +68,7 @@ class Engine {
   /// Ends the client that makes the sound, which then begins anew: a fault on purpose.
   /// \pre requireJack()
   void dropJack() { jack_->drop(); }
-  /// What the real-time thread could not get and what the audio host asked for since the last call.
+  /// Warnings since the last call, of the real-time thread and of the audio host.
   std::vector<std::string> takeWarnings();
 
  private:

@@ -5,14 +5,14 @@
 
 namespace ergotic::node {
 
-/// Of files that this program keeps for its users.
+/// Limit for names of files that this program keeps for its users.
 constexpr std::size_t kLongestFileName = 64;
 
 /// \param what  for the message, as in `take`
 /// \throws Exception if no file of a folder may have this name
 void requireFileName(const std::string& what, const std::string& name);
 
-/// With `_` in place of what such a name may not have, and cut to its length.
+/// Replaces characters that such a name may not have by `_`, and cuts it to its length.
 std::string toFileName(std::string text);
 
 }  // namespace ergotic::node

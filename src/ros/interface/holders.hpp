@@ -16,18 +16,18 @@ namespace ergotic::node {
 /// [Instrument::touchables] 1: a hand can hold it wherever it is, and it is drawn.
 std::vector<std::uint8_t> modulesThatCanBeHeld(const physics::Instrument& instrument);
 
-/// Deals out the hands that can hold any module: who asks for a module that nobody holds gets one
-/// of those that are free. Thread: any
+/// Assigns the hands that can hold any module: a request for a module that is not held gets one of
+/// the free hands. Thread: any
 class Holders {
  public:
-  /// What a hand of the station shall do.
+  /// Request to one hand of the station.
   struct Wish {
     std::size_t hand = 0;
     station::Hold hold;
-    const station::Performer* model = nullptr;  ///< that it is meant for
+    const station::Performer* model = nullptr;  ///< model that the request is meant for
   };
 
-  /// Another model plays, of which nothing is held yet.
+  /// Resets for another model, of which nothing is held yet.
   /// \param can_be_held  [modules] 1: this one; empty: none, as a person may be at the device
   void play(const station::Performer* model,
             std::vector<std::uint8_t> can_be_held,
@@ -38,7 +38,7 @@ class Holders {
   /// \throws Exception naming field, value and allowed range; nothing has changed then
   std::vector<Wish> read(const HoldTarget& wanted, const std::string& sender, double now_s);
 
-  /// What senders do not hold any more who were silent for too long.
+  /// Releases modules whose senders were silent for too long. \return requests to the hands
   std::vector<Wish> expire(double now_s);
 
  private:

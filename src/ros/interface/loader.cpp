@@ -144,7 +144,8 @@ void Loader::loadFromParameters() {
   }
 }
 
-/// Whoever plays notes does not ask for force: what is kept is what the station let out by itself.
+/// Loads a program. A program change does not ask for force: force is kept only if the station
+/// engaged it by itself.
 void Loader::loadProgram(int program) {
   try {
     const auto terms = command_thread_.terms();

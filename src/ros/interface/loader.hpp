@@ -50,17 +50,17 @@ class Loader {
   /// Plays the model that the parameter `model` names, if it names one. While its devices cannot be
   /// opened it tries again for some seconds: a station of this name may be about to end.
   void loadFromParameters();
-  /// No more of that. Thread: any
+  /// Ends these attempts. Thread: any
   void giveUp() { gives_up_ = true; }
 
  private:
-  /// A model that somebody wants to be played.
+  /// Request to play a model.
   struct Wish {
     std::string model;  ///< path or YAML text
     bool allow_unproven = false;
     std::string loader;
-    std::string end_effectors;  ///< that come with it: path or YAML text, `none`; empty: no others
-    bool is_again = false;      ///< it plays already
+    std::string end_effectors;  ///< its end-effectors: path or YAML text, `none`; empty: unchanged
+    bool is_again = false;      ///< the model plays already
   };
   LoadModel::Response load(const Wish& wish);
   std::optional<tgr::EndEffectors> endEffectorsFor(const Wish& wish) const;

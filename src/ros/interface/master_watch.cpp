@@ -22,7 +22,7 @@ constexpr auto kPause = 500ms;
 constexpr auto kPatience = 2s;    // with a master that is there but does not answer
 constexpr double kSliceS = 0.05;  // for so long the end of the watch goes unnoticed
 
-/// Where roscpp tells the master that services of this process are.
+/// Address of this process's services, as roscpp registers it with the master.
 std::string ownAddress() {
   return "rosrpc://" + ::ros::network::getHost() + ":" +
          std::to_string(::ros::ConnectionManager::instance()->getTCPPort());
@@ -110,8 +110,8 @@ bool MasterWatch::masterKnowsAll() {
          });
 }
 
-/// Not by ros::master::execute, which waits for ever for a master that was stopped.
-/// \param argument  beside our name, if there is one
+/// Calls the master, with a timeout; ros::master::execute waits for ever for a stopped master.
+/// \param argument  second argument, after our name; empty: none
 bool MasterWatch::ask(const std::string& method,
                       const std::string& argument,
                       XmlRpc::XmlRpcValue& answer) {

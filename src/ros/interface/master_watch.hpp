@@ -14,7 +14,7 @@
 
 namespace ergotic::node {
 
-/// When failures are no chance any more: two in a row.
+/// Counts consecutive failures: two in a row are reported.
 class RepeatedFailure {
  public:
   /// \return whether this one and the one before failed
@@ -33,15 +33,16 @@ class RepeatedFailure {
 bool tellsOf(const XmlRpc::XmlRpcValue& answer, const std::string& address);
 
 /// Whether the master's answer to `getSystemState` (code, text, [publishers, subscribers,
-/// services]) says that the node listens to the topic. Anybody may have told it otherwise.
+/// services]) lists the node as a subscriber of the topic. Any program may have changed that entry.
 /// Realtime: no. Thread: any
 bool tellsOfListener(const XmlRpc::XmlRpcValue& answer,
                      const std::string& topic,
                      const std::string& node);
 
-/// Asks the ROS master twice a second, in a thread of its own, where the services are that end
-/// force, and who hears the topics that do: when the master is gone, hangs for two seconds, is a
-/// new one that never heard of us, or leads callers to another node, nobody can call them any more.
+/// Asks the ROS master twice a second, in a thread of its own, for the addresses of the services
+/// that end force, and the subscribers of the topics that do: if the master is gone, hangs for two
+/// seconds, is a new one that does not know this node, or leads callers to another node, these can
+/// no longer be called.
 class MasterWatch {
  public:
   /// \param services  full names, advertised by this process

@@ -33,7 +33,7 @@ scene::Scene readFile(const std::string& model) {
   return scene::readSceneFile(model.substr(0, hash), {}, {model.substr(hash + 1)});
 }
 
-/// Nobody would look in the folder of this process for what it names.
+/// Choice for a text without a folder: such a text may not name other files.
 const scene::Choice kTextAlone = {"", false};
 
 }  // namespace

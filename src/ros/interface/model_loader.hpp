@@ -19,25 +19,24 @@ scene::Scene readModel(const std::string& model);
 /// `end_effectors` of a request: those of the scene itself, see handsBeside.
 constexpr const char* kOwnEndEffectors = "auto";
 
-/// The file of what shall stand on the slices for a scene `folder/NAME.yaml`:
-/// `folder/hands/NAME.yaml`. \param model  path, path#variant, or a text, which has none \return
-/// its path; empty if it is not there
+/// File of the end-effectors for a scene `folder/NAME.yaml`: `folder/hands/NAME.yaml`.
+/// \param model  path, path#variant, or a text, which has none
+/// \return its path; empty if there is no such file
 std::string handsBeside(const std::string& model);
 
-/// What kOwnEndEffectors means for a model. What stands on a device that can hurt somebody is not
-/// changed by who chooses an instrument.
+/// Resolves kOwnEndEffectors for a model. The end-effectors of a device that can hurt somebody are
+/// not changed by loading an instrument.
 /// \param playing  file of the scene that plays
-/// \return the file of handsBeside; `none` where only the scene that plays has one; empty: what
-///         stands there now
+/// \return the file of handsBeside; `none` if only the scene that plays has one; empty: no change
 std::string endEffectorsWith(const std::string& model, const std::string& playing, bool can_hurt);
 
-/// What a player should know of a model that is about to play: warnings of the scene and of its
-/// certificate, changed rates. Empty if there is nothing, else one thing a line.
+/// Notes about a model that is about to play: warnings of the scene and of its certificate, changed
+/// rates. Empty if there are none, else one note a line.
 std::string noteAbout(const station::Performer& performer);
 
-/// What who loads a model is answered: what plays, what is needed for force, and the warnings of
+/// Answer to a request to load a model: its name, the steps to get force, and the warnings of
 /// `note`, a line each. Notes on how the model is stepped stay in `status.message`.
-/// \param force_waits  until `engage`
+/// \param force_waits  for `engage`
 std::string answerOn(const std::string& model, const std::string& note, bool force_waits);
 
 /// "the model has no parameter 'x', it has: loss = 0...1 N s/m, ...".

@@ -45,7 +45,7 @@ ParameterWatch::ParameterWatch(const ::ros::NodeHandle& node) : node_(node) {
                                  [this](const ::ros::WallTimerEvent&) { look(); });
 }
 
-/// Asks the master only after it has told of a change.
+/// Looks at the parameters. The master is asked only after it has reported a change.
 void ParameterWatch::look() {
   XmlRpcValue now;
   node_.getParamCached(node_.getNamespace(), now);

@@ -14,8 +14,9 @@ namespace ergotic::node {
 std::vector<std::string> changedNames(const XmlRpc::XmlRpcValue& before,
                                       const XmlRpc::XmlRpcValue& after);
 
-/// Warns who changes a parameter of the station on the ROS master while it runs, as with `rosparam
-/// set`, that it is read only when the station starts. Thread: those of the node's callbacks
+/// Warns when a parameter of the station is changed on the ROS master while it runs, as with
+/// `rosparam set`: parameters are read only when the station starts. Thread: those of the node's
+/// callbacks
 class ParameterWatch {
  public:
   explicit ParameterWatch(const ::ros::NodeHandle& node);

@@ -102,8 +102,8 @@ std::vector<tgr::HandMove> Players::read(const HandTargets& wanted,
   return wanted_moves;
 }
 
-/// Of more senders than there are numbers, who holds nothing and was silent for longest gives its
-/// number away.
+/// Number of a sender. If there are more senders than numbers, the sender that holds nothing and
+/// was silent for longest loses its number.
 std::uint8_t Players::numberOf(const std::string& sender) {
   auto found = std::find_if(senders_.begin(), senders_.end(),
                             [&](const Sender& known) { return known.name == sender; });

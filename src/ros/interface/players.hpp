@@ -18,12 +18,12 @@ namespace ergotic::node {
 /// become slices, senders become numbers. Thread: any
 class Players {
  public:
-  /// Other end-effectors stand on the slices from now on.
-  /// \return moves that let go of all that anybody holds
+  /// Takes other end-effectors from now on.
+  /// \return moves that release everything that is held
   /// \throws TextError if one of them cannot be put together
   std::vector<tgr::HandMove> configure(const tgr::EndEffectors& end_effectors);
 
-  /// Whether an end-effector of that name stands on slices.
+  /// Whether there is an end-effector of that name.
   bool has(const std::string& end_effector);
 
   /// \param sender  node, by what it says itself

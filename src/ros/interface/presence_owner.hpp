@@ -7,12 +7,13 @@
 
 namespace ergotic::node {
 
-/// Of all who publish `presence` one counts: who spoke first. Another one has to be accepted, by
-/// `recover`, and only once the first is silent: a forgotten publisher must not hold the switch for
-/// a dead one, nor take it from one who lives. Times are of CLOCK_MONOTONIC. Thread: any
+/// Selects the publisher of `presence` that counts: the first one. Another publisher has to be
+/// accepted, by `recover`, and only once the first is silent: a forgotten publisher can neither
+/// hold the deadman switch for a dead one, nor take it from a live one. Times are of
+/// CLOCK_MONOTONIC. Thread: any
 class PresenceOwner {
  public:
-  static constexpr std::int64_t kSilentNs = 200'000'000;  ///< as long a switch counts that was held
+  static constexpr std::int64_t kSilentNs = 200'000'000;  ///< validity of a message
 
   /// \return whether this publisher counts
   bool hears(const std::string& publisher, std::int64_t now_ns) {
@@ -21,14 +22,14 @@ class PresenceOwner {
     heard_ns_ = name_ == publisher ? now_ns : heard_ns_;
     return name_ == publisher;
   }
-  /// Who speaks next counts, unless who counts has spoken just now.
+  /// Lets the next publisher count, unless the present one has just sent a message.
   void acceptAnother(std::int64_t now_ns) {
     const std::lock_guard lock(mutex_);
     if (now_ns - heard_ns_ > kSilentNs) {
       name_.clear();
     }
   }
-  /// Empty: nobody yet.
+  /// Name of the publisher that counts; empty: none yet.
   std::string name() const {
     const std::lock_guard lock(mutex_);
     return name_;

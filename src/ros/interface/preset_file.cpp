@@ -91,7 +91,7 @@ void PresetFile::forget(const std::string& name) const {
   write(presets);
 }
 
-/// All names are in quotes, or YAML takes some of them for something else.
+/// Writes the file with all names in quotes, as YAML would take some of them for other types.
 void PresetFile::write(const std::map<std::string, PresetValues>& presets) const {
   std::string text = "# Presets of the station: name, parameter, value in SI units.\n";
   for (const auto& [name, values] : presets) {

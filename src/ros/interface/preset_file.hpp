@@ -13,11 +13,11 @@ namespace ergotic::node {
 /// Values of parameters by their names.
 using PresetValues = std::map<std::string, double>;
 
-/// Where presets lie: `$ROS_HOME/ergotic/presets`.
+/// Folder of the presets: `$ROS_HOME/ergotic/presets`.
 std::string presetFolder();
 
-/// What the presets of a scene are filed under: the name of its file without ending, or its own
-/// name if it came as a text.
+/// Name of the preset file of a scene: the name of the scene's file without ending, or its own name
+/// if it came as a text.
 std::string presetsOf(const scene::Scene& scene);
 
 /// The presets of a scene: a YAML file `FOLDER/SCENE.yaml`, a map of names to maps of values.
@@ -30,12 +30,13 @@ class PresetFile {
       : folder_(std::move(folder)), path_(folder_ + "/" + scene + ".yaml") {}
 
   const std::string& path() const { return path_; }
-  /// All of them; none if there is no such file.
+  /// Reads all presets; none if there is no such file.
   /// \throws TextError with file:line:col; Exception if it cannot be read
   std::map<std::string, PresetValues> read() const;
   /// \throws Exception as `read`, or if there is none of this name
   PresetValues at(const std::string& name) const;
-  /// In place of one of the same name. \throws Exception as `read`, or if it cannot be written
+  /// Stores a preset, in place of one of the same name. \throws Exception as `read`, or if it
+  /// cannot be written
   void keep(const std::string& name, const PresetValues& values) const;
   /// \throws Exception as `at`, or if it cannot be written
   void forget(const std::string& name) const;
@@ -47,10 +48,10 @@ class PresetFile {
   std::string path_;
 };
 
-/// What of a preset a scene can take.
+/// Part of a preset that fits a scene.
 struct FittingValues {
   PresetValues values;
-  std::string left_out;  ///< in words; empty: nothing is
+  std::string left_out;  ///< values left out, in words; empty: none
 };
 FittingValues fittingValues(const PresetValues& preset,
                             const std::vector<scene::Parameter>& parameters);

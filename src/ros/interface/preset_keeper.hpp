@@ -11,8 +11,8 @@
 
 namespace ergotic::node {
 
-/// The service `preset`: reads and writes files, which may take its time, in the thread of who
-/// asks, and has the command thread do the rest.
+/// The service `preset`: reads and writes files, which may take time, in the caller's thread, and
+/// leaves the rest to the command thread.
 /// Thread: any, but never the command thread itself
 class PresetKeeper {
  public:

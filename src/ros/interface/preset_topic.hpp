@@ -18,7 +18,7 @@ class PresetTopic {
   /// \param scene  as `presetsOf`
   void show(const std::string& scene, const std::vector<std::string>& names);
   void showUndo(bool can_undo);
-  /// Nothing plays.
+  /// Publishes that nothing plays.
   void showNothing();
 
  private:

@@ -23,7 +23,7 @@ bool isInstrument(const path& file) {
   return (file.extension() == ".yaml" || file.extension() == ".mdl") && !is_measured;
 }
 
-/// By their names; of two of one name the later counts, at the place of the first.
+/// Instruments of a folder, sorted by name; of two files of one name the later replaces the first.
 std::vector<path> instrumentsIn(const path& folder) {
   std::error_code error;  // of a folder that cannot be read nothing is listed
   std::set<path> files;

@@ -27,35 +27,35 @@
 
 namespace ergotic::node {
 
-/// Everything the station tells ROS, pictures through the thread of a `Display`.
+/// Publishers of all ROS topics of the station; pictures go through the thread of a `Display`.
 /// Thread: command thread, all but the constructor
 class Publishers {
  public:
   /// \param tf_prefix  of all frames; empty: none
   Publishers(const ::ros::NodeHandle& node, const std::string& tf_prefix);
 
-  /// A station with these parameters and devices begins to play.
+  /// Shows that a station with these parameters and devices begins to play.
   void configure(const Parameters& parameters, const Hands& hands);
-  /// These end-effectors stand on the slices from now on.
+  /// Shows other end-effectors from now on.
   void show(const tgr::EndEffectors& end_effectors);
-  /// Another model plays from now on.
-  /// \param picture     of it, not null
+  /// Shows another model from now on.
+  /// \param picture     its picture, not null
   /// \param parameters  its values, one for each
   void showModel(const station::Performer& performer,
                  std::shared_ptr<Picture> picture,
                  const std::string& note,
                  const std::vector<double>& parameters);
-  /// What of the model hands move from now on.
+  /// Shows the modules that hands move from now on.
   void showHandles(Handles handles);
-  /// \return whether anybody wants to know how loud it is
+  /// \return whether `levels` has a subscriber
   bool wantsLevels() const { return levels_.getNumSubscribers() > 0; }
   void show(Levels levels);
-  /// \return whether anybody wants to see the sound
+  /// \return whether `scope` has a subscriber
   bool wantsScope() const { return scope_.getNumSubscribers() > 0; }
   void show(Scope scope);
-  /// A parameter of the model that plays has another value.
+  /// Shows the new value of a parameter of the model that plays.
   void showParameter(std::int64_t index, double value);
-  /// Nothing plays any more, or nothing yet; `message` says why.
+  /// Shows that nothing plays; `message` says why.
   void showSilence(const std::string& message);
 
   /// Adds a line to the message of the status.
@@ -67,21 +67,21 @@ class Publishers {
   void show(const station::GestureTick* ticks, std::size_t count);
   /// \param uncalibrated  slices, a bit each
   void show(const station::Snapshot& snapshot, std::uint64_t uncalibrated);
-  /// No ticks come, so no snapshot will say that force is latched at zero.
+  /// Shows that no ticks come, as then no snapshot reports that force is latched at zero.
   void showStandstill();
   void show(const station::MotionFrame& motion, const scene::Scene& scene);
   void show(const station::Keyframe& keyframe, const physics::Instrument& instrument);
 
-  /// Another picture than that of the model that plays, which moves on unseen, until the next
-  /// `showPicture` or `showModel`.
+  /// Shows another picture than that of the model that plays, whose motion is not shown until the
+  /// next `showPicture` or `showModel`.
   void showPicture(std::shared_ptr<Picture> picture) { display_.show(std::move(picture)); }
-  /// How the model of that picture stands.
+  /// Shows a motion frame of the model of that picture.
   void showTake(const station::MotionFrame& motion) { display_.show(motion); }
 
-  /// What a performance is made of goes into `take` as well, from now on; null: no more.
+  /// Also writes the messages of a performance into `take` from now on; null: stops that.
   void record(std::shared_ptr<TakeWriter> take);
 
-  /// True once for everybody who starts to listen to `gesture`, most likely to record it.
+  /// True once for each new subscriber of `gesture`, most likely a recorder.
   bool takeNewListener() { return new_listener_.exchange(false); }
 
   /// Sends the status if it is a second old, and parameters that have changed.

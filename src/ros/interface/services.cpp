@@ -26,7 +26,7 @@ const ::ros::WallDuration kMidiPeriod(0.001);
 constexpr double kRefusalPeriodS = 1.0;
 constexpr std::int64_t kComplaintPeriodNs = 1'000'000'000;
 
-/// How many are in here.
+/// Counts the calls that are inside a function.
 class Counted {
  public:
   explicit Counted(std::atomic<int>& count) : count_(count), number_(++count) {}
@@ -189,7 +189,7 @@ void Services::onHandTargets(const ::ros::MessageEvent<const HandTargets>& targe
   complainAtTimes("hand_targets of " + targets.getPublisherName(), refusal);
 }
 
-/// They come by the hundred a second: of what is wrong with them, one a second is told.
+/// Reports errors of messages that come by the hundred a second, at most one error a second.
 void Services::complainAtTimes(const std::string& whose, const std::string& refusal) {
   const std::int64_t now_ns = rt::monotonicNs();
   if (!refusal.empty() && now_ns - complained_ns_ > kComplaintPeriodNs) {
@@ -235,7 +235,7 @@ void Services::onTap(const Tap& tap) {
   }
 }
 
-/// Of who said that keys are held, and says so no more.
+/// Releases notes that are no longer reported as held, and those of taps.
 void Services::releaseNotes() {
   const std::int64_t now_ns = rt::monotonicNs();
   for (auto held = held_notes_.begin(); held != held_notes_.end();) {
@@ -284,7 +284,7 @@ void Services::playMidi() {
   loading_queue_.addCallback(boost::make_shared<QueuedCall>(load));
 }
 
-/// Their names are whatever their makers say.
+/// Listener for gamepads. The names of gamepads are arbitrary texts of their makers.
 gamepads::GamepadListener Services::gamepadListener() {
   return {[this](int pad, const tgr::GamepadMove& move) { command_thread_.playGamepad(pad, move); },
           [this](int pad) { command_thread_.unplugGamepad(pad); },
@@ -303,7 +303,8 @@ bool Services::onRecover(Call<Trigger>& call) {
   return fill(call.getResponse(), answer);
 }
 
-/// Those that wait would keep the threads from everything else.
+/// Changes end-effectors; a second call meanwhile is refused, as waiting calls would block the
+/// threads.
 Answer Services::configure(const std::vector<EndEffector>& end_effectors) {
   const Counted counted(configurations_);
   if (counted.number() > 1) {
@@ -348,8 +349,8 @@ void Services::onEmergencyTopic(const std_msgs::Empty& /*stop*/) {
   command_thread_.makeSafe(tgr::FaultReason::kEmergencyStop);
 }
 
-/// Of ROS (`rosnode kill`, a second node of this name): the nodelet hears of it much later, by its
-/// end, when nobody has found the station for half a second.
+/// Makes the station safe when ROS shuts down (`rosnode kill`, a second node of this name). The
+/// nodelet itself is destroyed much later, when nobody has found the station for half a second.
 void Services::followShutdown() {
   if (::ros::isShuttingDown() && !std::exchange(is_shut_down_, true)) {
     command_thread_.makeSafe(tgr::FaultReason::kMadeSafe);

@@ -40,11 +40,11 @@
 
 namespace ergotic::node {
 
-/// What ROS can ask of the station. Most comes through the queue of `node`, which notes when it
-/// came; everything that loads a model has a queue and a thread of its own, one at a time. So has
-/// what takes force away, and the presence switch: nothing may delay them. The moves of players'
-/// hands, and MIDI, have a thread of their own, so that they keep their distances in time, and so
-/// have gamepads.
+/// Services and subscribers of the station. Most calls come through the queue of `node`, which
+/// notes their arrival. Calls that load a model have a queue and a thread of their own, one at a
+/// time; so have those that take force away, and the presence switch: nothing may delay them. The
+/// moves of players' hands, and MIDI, have a thread of their own, so that they keep their distances
+/// in time, and so have gamepads.
 class Services {
  public:
   Services(const ::ros::NodeHandle& node, CommandThread& command_thread);

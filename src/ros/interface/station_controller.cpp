@@ -30,7 +30,7 @@ const char kWasOnItsWay[] =
     "it was on its way when somebody asked for an emergency stop: ask again";
 const char kTooMany[] = "too many requests wait for the real-time thread";
 
-/// Of nodes of two names: the same with a probability of 2^-64.
+/// Number of a node; two names get the same one with a probability of 2^-64.
 station::Caller numberOf(const std::string& node) {
   return std::hash<std::string>{}(node);
 }
@@ -232,7 +232,7 @@ std::string StationController::setVolume(double volume) {
   return "";
 }
 
-/// Of the outputs of the scene that plays, from 0.
+/// Output channels of the scene that plays, from 0.
 std::set<int> StationController::usedChannels() const {
   std::set<int> channels;
   for (const scene::Output& output : playing_->instrument->scene().outputs) {
@@ -243,7 +243,7 @@ std::set<int> StationController::usedChannels() const {
   return channels;
 }
 
-/// The sound is copied for it only while somebody listens.
+/// Publishes the scope. The sound is copied for it only while the topic has subscribers.
 void StationController::pollScope() {
   station::AudioBridge* const bridge = engine_->bridge();
   if (bridge == nullptr) {
@@ -376,7 +376,7 @@ void StationController::takeKeyframe(const station::Event& event) {
   }
 }
 
-/// What is too late must have no effect any more: not a force that nobody waits for.
+/// Withdraws requests whose deadline has passed, so that none brings force that nobody expects.
 void StationController::giveUp() {
   const std::int64_t now_ns = rt::monotonicNs();
   while (!requests_.empty() && now_ns > requests_.begin()->second.deadline_ns) {

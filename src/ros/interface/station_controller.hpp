@@ -37,11 +37,11 @@
 
 namespace ergotic::node {
 
-/// What MIDI and gamepads ask for besides strokes of hands.
+/// Requests by MIDI and gamepads other than strokes of hands.
 struct PlayersWishes {
-  std::vector<std::pair<std::string, double>> parameters;  ///< of the scene, and their values
-  std::vector<std::string> news;                           ///< for who looks at the status
-  std::optional<int> program;                              ///< the newest, 0...127
+  std::vector<std::pair<std::string, double>> parameters;  ///< parameters of the scene, and values
+  std::vector<std::string> news;                           ///< messages for the status
+  std::optional<int> program;                              ///< newest program, 0...127
 };
 constexpr const char* kNothingPlays = "nothing plays: load a model first";
 
@@ -57,10 +57,10 @@ struct ForceRequest {
   std::string caller;  ///< node that asks, by what it says itself
 };
 
-/// What plays, and what was asked of it: the command thread's side of the station.
+/// The model that plays and the open requests to it: the command thread's side of the station.
 ///
 /// Requests are answered when the real-time thread has obeyed, or said why not.
-/// Thread: command thread, all but `makeSafe`, `tellPresence` and what moves hands
+/// Thread: command thread, all but `makeSafe`, `tellPresence` and the functions that move hands
 class StationController {
  public:
   /// \param interlock  not null
@@ -85,12 +85,13 @@ class StationController {
   void begin(std::unique_ptr<Engine> engine,
              station::Performer* performer,
              std::shared_ptr<Picture> picture);
-  /// What comes with another model.
+  /// Data that come with another model.
   struct Swap {
     std::shared_ptr<Picture> picture;
-    std::string loader;                              ///< who asked for it
-    std::optional<tgr::EndEffectors> end_effectors;  ///< that take force away; none: no others
-    bool is_again = false;  ///< it is the one that plays, read again, and keeps what was changed
+    std::string loader;  ///< node that asked for it
+    std::optional<tgr::EndEffectors>
+        end_effectors;      ///< new end-effectors, which take force away; none: unchanged
+    bool is_again = false;  ///< the model that plays is read again, and keeps its changes
   };
   void swap(std::unique_ptr<station::Performer> performer,
             const Swap& with,
@@ -126,19 +127,19 @@ class StationController {
             const std::shared_ptr<std::string>& path,
             const Promise& promise);
 
-  /// In words, for who loaded it. \pre something plays
+  /// Describes what plays, in words, for the node that loaded it. \pre something plays
   std::string whatPlays(bool force_waits) const;
 
-  /// Of the model that plays. \pre something plays
+  /// File of the scene that plays. \pre something plays
   const std::string& sceneFile() const { return playing_->instrument->scene().file; }
 
-  /// Brings the news of the station to ROS and to those who wait for them.
+  /// Publishes the station's events, and answers those who wait for them.
   void poll();
 
-  /// Forces to zero, device closed, waiting requests refused.
+  /// Sets forces to zero, closes the device, and refuses waiting requests.
   void close();
 
-  /// Force to zero at once, latched, also if no device is open yet. \return whether one is.
+  /// Sets force to zero at once, latched, also if no device is open yet. \return whether one is.
   /// Thread: any
   bool makeSafe(tgr::FaultReason reason);
   /// Moves hands of a simulated device, with the next ticks. \return what is wrong with it, or an
@@ -147,7 +148,7 @@ class StationController {
   /// Holds a module of the model wherever that is, or lets go of it. \return what is wrong with it,
   /// or an empty text. Thread: any
   std::string hold(const HoldTarget& wanted, const std::string& sender);
-  /// Lets go of what senders held who fell silent. Thread: any
+  /// Releases modules whose senders have fallen silent. Thread: any
   void expireHolds();
   /// Plays a note by the map of notes. \pre both 0...127. Thread: any
   void playNote(int note, int velocity);
@@ -156,18 +157,18 @@ class StationController {
   std::optional<int> tap(const std::string& end_effector, int index, int velocity);
   /// Plays what came in by MIDI. Thread: one, any
   PlayersWishes playMidi();
-  /// Plays what is done with a gamepad. \param pad  tells them apart, 0 or more. Thread: any
+  /// Plays an event of a gamepad. \param pad  number of the gamepad, 0 or more. Thread: any
   PlayersWishes playGamepad(int pad, const tgr::GamepadMove& move);
-  /// It lets go of everything. Thread: any
+  /// Unplugs a gamepad; all that it holds is released. Thread: any
   void unplugGamepad(int pad);
-  /// The next control that somebody moves shall move this parameter; empty: none shall.
+  /// Binds the next control that a player moves to this parameter; empty: stops waiting.
   /// Thread: any
   Answer learnControl(const std::string& parameter);
-  /// No key is down any more. Thread: any
+  /// Releases all keys. Thread: any
   void releaseKeys();
-  /// \param map  path or YAML text. \return what is wrong with it, or an empty text. Thread: any
+  /// \param map  path or YAML text. \return an error, or an empty text. Thread: any
   std::string usePlayMap(const std::string& map);
-  /// The presence switch is held, or not. Thread: any
+  /// Reports whether the presence switch is held. Thread: any
   void tellPresence(bool is_held);
 
  private:
@@ -176,14 +177,14 @@ class StationController {
     station::Performer* performer = nullptr;
     Swap with;
     Promise promise;
-    std::string left_out;  ///< of the values that its players had set, in words
+    std::string left_out;  ///< values of its players that it did not get, in words
   };
-  /// A parameter on its way to the tick, and who waits for it to take effect.
+  /// A parameter on its way to the tick, and the caller that waits for its effect.
   struct Change {
-    std::string done;  ///< what is answered then
-    Promise promise;   ///< null: nobody waits
+    std::string done;  ///< answer when it has taken effect
+    Promise promise;   ///< null: no caller waits
   };
-  /// Other end-effectors on their way into the station, whose event brings the old rig back.
+  /// End-effectors on their way into the station, whose event brings the old rig back.
   struct Configuration {
     tgr::EndEffectors end_effectors;
     std::vector<std::string> warnings;
@@ -196,9 +197,9 @@ class StationController {
     std::int64_t deadline_ns = 0;
   };
 
-  /// Somebody waits for what a push tells.
+  /// A caller that waits for the result of a push.
   struct Check {
-    station::Ticket ticket = 0;  ///< of the interlock, until somebody takes force away
+    station::Ticket ticket = 0;  ///< ticket of the interlock, valid until force is taken away
     std::string file;
     Promise promise;
   };

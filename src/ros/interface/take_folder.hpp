@@ -8,12 +8,12 @@
 
 namespace ergotic::node {
 
-/// A take as its folder tells of it.
+/// Properties of a take that its folder shows.
 struct TakeFile {
   std::string name;
   std::string path;
   bool is_starred = false;
-  std::int64_t written_ns = 0;  ///< since 1970
+  std::int64_t written_ns = 0;  ///< time since 1970
 };
 
 /// The folder of the takes: `NAME.bag`, or `NAME+.bag` of one that is starred, which no name can
@@ -29,7 +29,7 @@ class TakeFolder {
   std::vector<TakeFile> list() const;
   /// \throws Exception if there is none of this name
   TakeFile find(const std::string& name) const;
-  /// Where a new take goes; the folder is made. \throws Exception if there is one of this name
+  /// Path of a new take; makes the folder. \throws Exception if there is one of this name
   std::string placeFor(const std::string& name) const;
 
   // Each gives the new path. \throws Exception as `find`, or why it cannot be done
@@ -37,7 +37,7 @@ class TakeFolder {
   /// \throws Exception as `placeFor`, too
   std::string rename(const std::string& name, const std::string& new_name) const;
   std::string star(const std::string& name, bool is_starred) const;
-  /// Moves it to the folder `trash`, under a name that is free there.
+  /// Moves a take to the folder `trash`, under a name that is free there.
   std::string discard(const std::string& name) const;
 
  private:

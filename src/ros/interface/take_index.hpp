@@ -13,14 +13,14 @@
 
 namespace ergotic::node {
 
-/// What only the bag of a take tells.
+/// Details that only the bag of a take contains.
 struct TakeDetails {
-  std::int64_t began_ns = 0;  ///< since 1970; 0: not known
+  std::int64_t began_ns = 0;  ///< time since 1970; 0: not known
   double length_s = 0.0;      ///< 0: not known
   std::string instrument;     ///< empty: not known
 };
 
-/// \return nothing known of what is no bag, or is damaged. Thread: any
+/// \return empty details for a file that is no bag, or is damaged. Thread: any
 TakeDetails detailsOf(const std::string& path);
 
 /// Looks into bags, in a thread of its own: a disk may take its time.

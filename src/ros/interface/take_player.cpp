@@ -16,7 +16,7 @@ using namespace std::chrono_literals;
 constexpr auto kPause = 5ms;
 constexpr int kPausesUntilSilent = 100;
 
-/// What was played once may be played again, whatever is known of it.
+/// Accepts every model: a model that has been played may be played again, whatever its certificate.
 station::PerformerPolicy policyOfTakes() {
   station::PerformerPolicy policy;
   policy.allow_unproven = true;
@@ -152,7 +152,7 @@ bool TakePlayer::push(const std::vector<float>& frames, int nframes) {
   return false;
 }
 
-/// At its end the rest of it sounds; one that is halted fades, if JACK still runs.
+/// Waits for the end of the sound: at its end the take sounds on; a halted one fades, if JACK runs.
 void TakePlayer::waitUntilSilent() {
   for (int i = 0; !port_->isSilent() && (!halts_ || i < kPausesUntilSilent); i += halts_ ? 1 : 0) {
     std::this_thread::sleep_for(kPause);

@@ -37,25 +37,24 @@ class TakePlayer {
   TakePlayer(const TakePlayer&) = delete;
   TakePlayer& operator=(const TakePlayer&) = delete;
 
-  /// It shall end; it fades within 5 ms.
+  /// Ends the replay; it fades within 5 ms.
   void halt();
 
   enum class State : std::uint8_t { kReads, kPlays, kOver };
   struct News {
     State state = State::kReads;
-    std::string message;  ///< of the end: what was wrong, or a flaw; empty: nothing
-    bool failed = false;  ///< it never sounded
+    std::string message;  ///< error or flaw at the end; empty: none
+    bool failed = false;  ///< there was no sound at all
     double played_s = 0.0;
     double length_s = 0.0;
-    std::shared_ptr<Picture> picture;  ///< of its model, once; else null
+    std::shared_ptr<Picture> picture;  ///< picture of its model, once; else null
   };
   News news();
   struct Seen {
     station::MotionFrame motion;
-    std::shared_ptr<Picture> picture;  ///< of another model that plays from now on; null: the same
+    std::shared_ptr<Picture> picture;  ///< picture of the next model; null: the same model
   };
-  /// How the model of the take stands at what sounds now, if that is another way than at the last
-  /// call.
+  /// Motion of the take at the present output position, if it has changed since the last call.
   std::optional<Seen> motion();
 
  private:

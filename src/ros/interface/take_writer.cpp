@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::size_t kMostWaiting = 10'000;  // blocks of gestures: some minutes
 
-/// A clock that is simulated may stand at its beginning, which a bag has no place for.
+/// Time stamp of a message. A simulated clock may be at 0, which a bag cannot store.
 ::ros::Time timeOfMessage() {
   return std::max(::ros::Time::now(), ::ros::TIME_MIN);
 }

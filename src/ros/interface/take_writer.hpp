@@ -21,14 +21,14 @@
 
 namespace ergotic::node {
 
-/// Writes what a station tells of a performance into a bag, in a thread of its own: a slow disk
-/// delays nobody. The file has the ending `.active` until it is whole; one that nobody could play
+/// Writes the messages of a performance into a bag, in a thread of its own: a slow disk delays no
+/// other thread. The file has the ending `.active` until it is whole; one that cannot be played
 /// again is removed.
 /// Thread: command thread, all of it
 class TakeWriter {
  public:
   /// \param path  of the bag, in a folder that exists
-  /// \throws Exception if it cannot be written, or was begun by somebody who did not end it
+  /// \throws Exception if it cannot be written, or was begun and not ended by another writer
   explicit TakeWriter(std::string path);
   ~TakeWriter();  ///< waits until it is over
   TakeWriter(const TakeWriter&) = delete;
@@ -43,14 +43,14 @@ class TakeWriter {
   void write(const std::string& topic, const ::ergotic::Parameters& message);
 
   const std::string& path() const { return path_; }
-  /// Of what can be played again: from the first keyframe on. 0: nothing.
+  /// Duration that can be played again: from the first keyframe on. 0: nothing.
   double seconds() const { return seconds_; }
-  /// \return what keeps it from being written; empty: nothing
+  /// \return error that prevents writing; empty: none
   std::string trouble();
 
-  /// Nothing more will come: what waits is written, and the file gets its name.
+  /// Ends the take: waiting messages are written, and the file gets its name.
   void end();
-  /// \return nothing while that is done; then why the take is not there, or an empty text
+  /// \return nothing while that is done; then an error, or an empty text
   std::optional<std::string> outcome();
 
  private:

@@ -120,7 +120,7 @@ Answer Takes::halt() {
   return {true, "the take ends"};
 }
 
-/// Refused of the one that is played, which goes on to read it.
+/// Renames, stars or deletes a take; refused for the take that plays, as it is still being read.
 Answer Takes::change(const Take::Request& request) {
   const std::string& name = request.name;
   try {
@@ -150,7 +150,7 @@ Answer Takes::change(const Take::Request& request) {
   }
 }
 
-/// Reads the folder; what only the bags tell comes later.
+/// Reads the folder; details from the bags follow later.
 void Takes::list() {
   message_.names.clear();
   message_.starred.clear();
@@ -229,8 +229,8 @@ void Takes::end(const TakePlayer::News& news, const std::shared_ptr<Picture>& pi
   send();
 }
 
-/// A take that cannot be written to its end is ended at once; what went wrong with one that nobody
-/// waits for is told.
+/// Looks at the writers. A take that cannot be written to its end is ended at once; its error is
+/// published if no caller waits for it.
 void Takes::pollWriters() {
   if (writer_) {
     message_.recorded = writer_->seconds();

@@ -27,24 +27,25 @@ class Takes {
  public:
   Takes(const ::ros::NodeHandle& node, Publishers& feed);
 
-  /// What is told from now on goes into a bag. The caller asks for a keyframe.
+  /// Records all messages from now on into a bag. The caller asks for a keyframe.
   /// \param name        empty: date, time and `instrument`
-  /// \return what went wrong, or where it is written
+  /// \return an error, or the path
   Answer record(const std::string& name, const std::string& instrument);
-  /// The promise is kept when the take is written: where it is, or what is wrong with it.
+  /// Ends the recording. The promise is fulfilled when the take is written: with its path, or an
+  /// error.
   void finish(const Promise& promise);
 
-  /// The promise is kept when it begins to sound.
+  /// Replays a take. The promise is fulfilled when its sound begins.
   /// \param name    empty: the newest
   /// \param bridge  null: there is no sound
-  /// \param rate_hz  of the sound
+  /// \param rate_hz  frame rate of the sound
   void replay(const std::string& name,
               const station::AudioBridge* bridge,
               double rate_hz,
               double display_zoom,
               const Promise& promise);
   Answer halt();
-  /// Another name, a star or the trash: RENAME...DELETE of Take.srv.
+  /// Renames, stars or discards a take: RENAME...DELETE of Take.srv.
   Answer change(const Take::Request& request);
   /// \return whether the picture is that of a take
   bool isShown() const { return shows_; }
@@ -52,10 +53,10 @@ class Takes {
   /// Brings what changed to ROS.
   /// \param picture  of the model that plays, shown again after a take
   void poll(const std::shared_ptr<Picture>& picture);
-  /// Nothing plays any more.
+  /// Ends recording and replay, when nothing plays any more.
   void close();
 
-  /// Of the take that was recorded or asked for last.
+  /// Path of the take that was recorded or requested last.
   const std::string& path() const { return path_; }
 
  private:

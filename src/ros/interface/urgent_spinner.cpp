@@ -13,7 +13,8 @@ namespace ergotic::node {
 
 namespace {
 
-/// Of one thread, which asks for it again and again. Others may do so for the same one.
+/// Real-time priority of one thread, which calls `follow` again and again. Others may do so for the
+/// same one.
 class Priority {
  public:
   explicit Priority(int priority) : priority_(priority) {}

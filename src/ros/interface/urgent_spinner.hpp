@@ -30,7 +30,7 @@ class UrgentSpinner {
   UrgentSpinner& operator=(const UrgentSpinner&) = delete;
 
  private:
-  /// What the thread that reads the sockets is told, which others keep when this one goes.
+  /// State of the thread that reads the sockets, kept after this object has gone.
   struct Reader {
     std::atomic<bool> ends{false};
     std::promise<void> ended;  // it is ordinary again

@@ -9,19 +9,19 @@
 
 namespace ergotic::node {
 
-/// What the parameters of a scene were before each change, so that changes can be undone. Changes
+/// Values of the parameters of a scene before each change, so that changes can be undone. Changes
 /// that follow one another within a second are one.
 class ValueHistory {
  public:
   static constexpr std::size_t kMostSteps = 50;
   static constexpr std::int64_t kPauseNs = 1'000'000'000;
 
-  /// They are about to change. \param values  [parameters] as they are
+  /// Records values before a change. \param values  [parameters] as they are
   void note(const std::vector<double>& values, std::int64_t now_ns);
   bool canUndo() const { return !steps_.empty(); }
   /// \return the values before the last change, which is forgotten. \pre canUndo()
   std::vector<double> undo();
-  /// Another scene plays.
+  /// Clears the history, when another scene plays.
   void clear();
 
  private:

@@ -32,7 +32,7 @@ std::vector<std::string> linesOf(const std::string& text) {
   return lines;
 }
 
-/// Where the first document of a scene ends: files that it has read may follow in another.
+/// Line at which the first document of a scene ends: files that it has read may follow in another.
 std::size_t endOfScene(const std::vector<std::string>& lines) {
   bool is_begun = false;
   for (std::size_t i = 0; i < lines.size(); ++i) {
@@ -64,8 +64,8 @@ std::string variantLine(const std::string& name, const PresetValues& values) {
   return name + ": {set: {" + set + "}}";
 }
 
-/// What somebody else would read in the file: the text with a variant, if that plays as it should.
-/// \throws Exception why not
+/// Text with a variant, checked by reading it as others would: all values must be as wanted.
+/// \throws Exception if they are not
 std::string checkedVariant(const std::string& text,
                            const std::string& path,
                            const std::string& name,

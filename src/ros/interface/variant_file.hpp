@@ -17,7 +17,7 @@ std::string withVariant(const std::string& text,
                         const std::string& name,
                         const PresetValues& values);
 
-/// A written copy of a scene, and what is told of it.
+/// A written copy of a scene, and the notes about it.
 struct SavedVariant {
   std::string path;
   bool is_written_out = false;  ///< it has the scene's plain text, not that of its file

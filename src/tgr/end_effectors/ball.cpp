@@ -67,8 +67,8 @@ class Ball final : public Kinematics {
   }
 
  private:
-  /// Differences of the spheres' equations give x and y as a + b z, their mean then z.
-  /// Not a number where the spheres do not meet.
+  /// Position of the platform: differences of the spheres' equations give x and y as a + b z, their
+  /// mean then z. Not a number where the spheres do not meet.
   Eigen::Vector3d platformAt(const double* q) const noexcept {
     const Eigen::Map<const Eigen::Vector3d> slices(q);
     const double mean = slices.mean();

@@ -9,7 +9,7 @@
 namespace ergotic::tgr {
 namespace {
 
-/// Two levers at a right angle, turned: x = R(angle) lever (q0, q1).
+/// Bow: two levers at a right angle, rotated: x = R(angle) lever (q0, q1).
 class Bow final : public Kinematics {
  public:
   Bow(double lever, double angle)
@@ -28,7 +28,7 @@ class Bow final : public Kinematics {
     return true;
   }
 
-  /// It moves along x of its frame and is pressed along z.
+  /// Pose of the bow. It moves along x of its frame and is pressed along z.
   ERGOTIC_REALTIME Eigen::Isometry3d pose(const double* q) const noexcept override {
     const Eigen::Vector2d at = matrix_ * Eigen::Vector2d(q[0], q[1]);
     Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();

@@ -19,7 +19,7 @@ using Matrix =
     Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor, kCoordinates, kSlices>;
 using Square = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kSlices, kSlices>;
 
-/// Where an end-effector is with its slices at q, and what is missing to where it shall be.
+/// Coordinates of an end-effector with its slices at q, and their error to the wanted ones.
 struct Place {
   Vector q;
   Vector missing;

@@ -8,34 +8,35 @@
 #include "ergotic/tgr/end_effector.hpp"
 #include "scene/limits.hpp"
 
-/// What each type of end-effector is described by, said once for the reader, the writer and the
+/// Parameters that describe each type of end-effector, shared by the reader, the writer and the
 /// makers.
 namespace ergotic::tgr {
 
-/// One number of a type.
+/// One numeric parameter of a type.
 struct Dimension {
   const char* key;  ///< in YAML
   double EndEffectorConfig::*member;
   scene::Limits limits;
 };
 
-/// What stands on how many slices, and what it measures.
+/// Name, number of slices and dimensions of a type.
 struct TypeTraits {
   const char* name;
   int fewest_slices;
   int most_slices;
   std::vector<Dimension> dimensions;
-  std::unique_ptr<Kinematics> (*make)(const EndEffectorConfig& config);  ///< of legal numbers
+  /// Maker, for numbers within their ranges.
+  std::unique_ptr<Kinematics> (*make)(const EndEffectorConfig& config);
 };
 const TypeTraits& traitsOf(EndEffectorType type);
-/// In the order of the enumeration.
+/// Names of the types, in the order of the enumeration.
 const std::vector<std::string>& typeNames();
 
-constexpr int kFewestPoints = 3;  ///< of a handle
+constexpr int kFewestPoints = 3;  ///< number of points of a handle
 constexpr int kMostPoints = Kinematics::kMaxCoordinates / 3;
 constexpr scene::Limits kPointLimits{"m", -1.0, 1.0};
 
-/// Coordinates of one whose slices and points are given.
+/// Number of coordinates of an end-effector with given slices and points.
 std::size_t coordinatesOf(const EndEffectorConfig& config);
 
 /// Roll, pitch and yaw: a rotation as turns about fixed axes, x first. Where pitch is a right angle

@@ -57,14 +57,14 @@ Eigen::VectorXd squaredGains(const Eigen::MatrixXd& matrix) {
   return algebra::symmetricEigenvalues(matrix.transpose() * matrix);
 }
 
-/// A platform, and its rods as they stand.
+/// Position of the platform, and of its rods.
 struct Stance {
   Eigen::Matrix3d rotation;
   Eigen::Vector3d centre;
-  Circle arms;  ///< from the centre to the ends of the rods
-  Circle rods;  ///< from the slices to their other ends
+  Circle arms;  ///< vectors from the centre to the ends of the rods
+  Circle rods;  ///< vectors from the slices to the other ends of the rods
 
-  /// How the halved squares of the rods' lengths change with motion and turning of the platform.
+  /// Derivatives of half the squared rod lengths by translation and rotation of the platform.
   Matrix6d constraints() const noexcept {
     Matrix6d rows;
     for (int i = 0; i < kRods; ++i) {

@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-/// What parallel linkages on slices that move along z share: rods of one length from each slice to
-/// a platform above.
+/// Common parts of parallel linkages on slices that move along z: rods of one length from each
+/// slice to a platform above.
 namespace ergotic::tgr {
 
-/// Workspace: z of every rod over its length. A flat rod can push its slice no more.
+/// Workspace limit: least z of a rod over its length. A flatter rod transmits no force of its
+/// slice.
 constexpr double kFlattestRod = 0.2;
-/// The same at rest.
+/// Workspace limit, as kFlattestRod, at rest.
 constexpr double kFlattestRodAtRest = 0.3;
-/// Workspace: the Jacobian's Frobenius norm over that at rest. It grows without bound where the
-/// rods cannot hold the platform any more.
+/// Workspace limit: the Jacobian's Frobenius norm over that at rest. It grows without bound where
+/// the rods cannot hold the platform any more.
 constexpr double kMostGain = 3.0;
 
 /// Height of the platform over slices at rest.

@@ -5,7 +5,7 @@
 
 #include "ergotic/tgr/end_effector.hpp"
 
-/// One maker for each type, given numbers within their ranges.
+/// Makers of the types, for numbers within their ranges.
 /// \throws Exception if the linkage cannot be put together
 namespace ergotic::tgr {
 

@@ -17,7 +17,7 @@ constexpr double kLongest = 4.0;           // and out
 /// Direction in which the slices push the stick over.
 struct Direction {
   Eigen::Vector3d u;
-  double norm;  ///< from the pivot to where the slices push
+  double norm;  ///< distance from the pivot to the point that the slices push
 };
 
 /// A stick in a gimbal. The slices push it at the height `arm` over the pivot,

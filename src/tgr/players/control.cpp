@@ -134,7 +134,7 @@ bool MpeZones::isMember(int channel) const {
   return is_of_lower || is_of_upper;
 }
 
-/// What the map wants is older than all that the device says.
+/// Number of members; a message of the device overrides a map that asks for MPE.
 int MpeZones::lowerMembers() const {
   if (!wanted_.value_or(true)) {
     return 0;

@@ -80,7 +80,7 @@ double Keyboard::depthOf(const Down& down) const {
   return down.is_held || down.is_caught ? 1.0 : pedal_depth_;
 }
 
-/// Of all notes that have this key.
+/// Depth of a key: the largest of all notes that play it.
 double Keyboard::depthOf(const Key& key) const {
   double depth = 0.0;
   for (const auto& [name, down] : down_) {
@@ -106,7 +106,7 @@ double Keyboard::placeOf(const Key& key) const {
   return depth == 1.0 ? line.to_m : line.from_m + depth * (line.to_m - line.from_m);
 }
 
-/// Between the two ends, which is as far as a stroke goes.
+/// Strikes a key: the hand glides for the time that the whole way between the two ends takes.
 void Keyboard::strike(
     const Key& key, double target_m, double speed, double after_s, Strokes& strokes) {
   const double way = std::abs(key.line->to_m - key.line->from_m);
@@ -164,7 +164,7 @@ void Keyboard::release(const Name& name, Strokes& strokes) {
   goBack(key, strokes);
 }
 
-/// As far as the other notes that have it, and pedals, let it.
+/// Returns a key as far as its other notes and the pedals permit.
 void Keyboard::goBack(const Key& key, Strokes& strokes) {
   const double place_m = placeOf(key);
   const double told_m = ways_.toldOf(key.hand, key.line->from_m);
@@ -183,7 +183,7 @@ void Keyboard::settle(const Key& key, Strokes& strokes) {
   ways_.follow(key.hand, placeOf(key), key.line->from_m, key.line->back, now_s_, strokes);
 }
 
-/// No effect of a controller that is no pedal.
+/// Handles pedals; other controllers have no effect.
 void Keyboard::setPedal(int number, int value, Strokes& strokes) {
   constexpr int kSustain = 64;
   constexpr int kSostenuto = 66;

@@ -82,7 +82,7 @@ Keyboard::Played Keyboard::play(const std::uint8_t* bytes, int size, double now_
   return played;
 }
 
-/// A note of its own channel begins with what was heard there.
+/// Plays a note; one with a channel of its own begins with the channel's last expression values.
 void Keyboard::playNote(const Name& name, int velocity, Played& played) {
   key_pressures_.erase(name);
   if (velocity == 0) {
@@ -131,7 +131,7 @@ void Keyboard::resetControls(int channel, Played& played) {
   setControl(kPressureControl, channel, 0.0, played);
 }
 
-/// Of a note in its own channel it is the same as that of the channel.
+/// Handles pressure of a single note; in a channel of its own it equals the channel's pressure.
 void Keyboard::setKeyPressure(int channel, int note, int value, Played& played) {
   const Name name{channel, note};
   if (value > 0) {
@@ -185,7 +185,7 @@ void Keyboard::express(const Control& control,
   }
 }
 
-/// What bend or slide of one note moves.
+/// Moves the targets of bend or slide of one note.
 void Keyboard::moveFor(const Key& key, const Control& control, double share, Played& played) {
   if (control == kBendControl && key.line->bend) {
     move(*key.line->bend, key.number, control, share, played);

@@ -14,7 +14,7 @@ Control axisControl(int axis) {
   return {Control::Kind::kAxis, axis};
 }
 
-/// Of a hand at a slice, which goes no further.
+/// Limits a target to the range of a hand at a slice; coordinates have no limit.
 double withinReach(double target_m, bool is_slice) {
   return is_slice ? std::clamp(target_m, -kMaxTargetM, kMaxTargetM) : target_m;
 }
@@ -35,9 +35,9 @@ const std::vector<std::string>& gamepadAxisNames() {
   return names;
 }
 
-/// Of a map that says nothing of gamepads: a button for each hand, in the order of the map, and the
-/// left stick for the first two: forwards and to the right they go where their keys take them, and
-/// as far to the other side.
+/// Usual assignment, for a map without gamepads: a button for each hand, in the order of the map,
+/// and the left stick for the first two hands: forwards and to the right move them like their keys,
+/// the opposite directions move them as far to the other side.
 void Keyboard::useUsualGamepad() {
   std::vector<HandWays::Hand> hands;
   std::vector<const KeyLine*> lines;  // [hands]

@@ -33,7 +33,7 @@ Places readPlaces(const YamlMap& map) {
           map.integers(is_of_tool ? "coordinates" : "slices", 1, kMaxSlices, kIndexLimits)};
 }
 
-/// What is left of a map with these keys and those of a motion.
+/// Reads the motion of a map, which may also have the keys `others`.
 Motion readMotion(const YamlMap& map, std::vector<std::string> others) {
   Motion motion;
   if (map.has("parameter") || (!map.has("slices") && !map.has("end_effector"))) {

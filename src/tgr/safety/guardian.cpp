@@ -59,7 +59,7 @@ std::vector<std::string> wordsFor(const std::vector<Guard>& guards,
   return words;
 }
 
-/// Of a program that gets the files, keeps none of our signal masks, and hears no terminal.
+/// Starts a program that gets the files, keeps none of our signal masks, and has no terminal.
 pid_t spawn(std::vector<std::string> words, const std::vector<int>& files) {
   std::vector<char*> arguments;
   for (std::string& word : words) {
@@ -88,8 +88,8 @@ pid_t spawn(std::vector<std::string> words, const std::vector<int>& files) {
   return pid;
 }
 
-/// The guardians of this process, told when a signal ends it that may leave a core file: the kernel
-/// would do so only when it has stopped all threads, and written the file.
+/// Signals the guardians of this process on a fatal signal that may leave a core file: the kernel
+/// would report its end only when it has stopped all threads, and written the file.
 class FaultTeller {
  public:
   static void add(pid_t guardian) {
@@ -120,7 +120,7 @@ class FaultTeller {
   static constexpr std::size_t kOfThreads = 5;  // which nobody survives
   static constexpr std::size_t kMost = 16;      // more are told by the kernel
 
-  /// Then it goes its usual way.
+  /// Handler of fatal signals: notifies the guardians, then the signal takes its usual course.
   static void onFault(int signal) {
     for (const std::atomic<pid_t>& guardian : guardians) {
       if (const pid_t pid = guardian; pid != 0) {
@@ -130,7 +130,7 @@ class FaultTeller {
     restore(signal);
     ::raise(signal);
   }
-  /// What stood there before, where ours still stands.
+  /// Restores the earlier handler of a signal, if ours is still installed.
   static void restore(int signal) {
     const auto at = std::find(kFaults.begin(), kFaults.end(), signal) - kFaults.begin();
     struct sigaction now = {};
@@ -232,7 +232,7 @@ Guardian::~Guardian() {
   end();
 }
 
-/// In a thread that does nothing else, for it has to live as long as the process.
+/// Holds the robust mutex in a dedicated thread, which has to live as long as the process.
 void Guardian::hold(int priority) {
   std::promise<void> held;
   holder_ = std::thread([this, &held, priority] {

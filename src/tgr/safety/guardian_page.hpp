@@ -14,15 +14,16 @@ namespace ergotic::tgr {
 /// Tells a guardian to act at once: a thread of the station committed a fault.
 constexpr int kGuardianAct = SIGUSR1;
 
-/// What a station and its guardian share.
+/// Shared memory of a station and its guardian.
 struct GuardianPage {
-  /// Held by a thread of the station. It is robust: the kernel hands it to the guardian as soon as
-  /// that thread is dead, before it gives back memory and files of the process, which takes long.
+  /// Mutex held by a thread of the station. It is robust: the kernel hands it to the guardian as
+  /// soon as that thread is dead, before it frees memory and files of the process, which takes
+  /// long.
   pthread_mutex_t life;
-  std::atomic<std::int64_t> beats{0};  ///< by the station
-  std::atomic<std::int64_t> looks{0};  ///< by the guardian, four in the silence that it waits for
-  std::atomic<bool> quit{false};       ///< by the station: the devices were given back
-  std::atomic<bool> answered{false};   ///< by the guardian: `refusal` is what it cannot hold
+  std::atomic<std::int64_t> beats{0};  ///< counted by the station
+  std::atomic<std::int64_t> looks{0};  ///< counted by the guardian, four in `silence_s`
+  std::atomic<bool> quit{false};       ///< set by the station: the devices were given back
+  std::atomic<bool> answered{false};   ///< set by the guardian: `refusal` is what it cannot hold
   char refusal[512] = "";
 };
 

@@ -103,7 +103,7 @@ Json bodiesOf(const Scene& scene) {
   return report;
 }
 
-/// For instruments that live shorter than it does.
+/// Pointer without ownership, for instruments that do not outlive the scene.
 std::shared_ptr<const Scene> shared(const Scene& scene) {
   return {std::shared_ptr<const Scene>(), &scene};
 }
@@ -145,7 +145,7 @@ Json loadOf(const Scene& scene,
   return load.finish(scene.mats.size() + scene.lias.size());
 }
 
-/// What `compile` made of the scene, and why.
+/// Reports the program that `compile` made of the scene, and why.
 Json programOf(const physics::Instrument& instrument) {
   const physics::CompileOptions& options = instrument.options();
   return {{"precision", nameOf(options.precision)},

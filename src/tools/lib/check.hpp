@@ -11,15 +11,15 @@
 
 namespace ergotic::tools {
 
-/// What `check` is asked for.
+/// Options of `check`.
 struct CheckOptions {
   SceneOptions scene;
   CompileChoice compile;
   std::string end_effectors;  ///< file; empty: ports move with their own slices
   DeviceChoice device;
-  bool ranges = false;  ///< judge those of large scenes, too
+  bool ranges = false;  ///< judge the ranges of large scenes, too
   bool json = false;
-  bool verbose = false;         ///< all that is known of the scene, not what a musician asks first
+  bool verbose = false;         ///< print the whole report, not only the brief one
   std::string target;           ///< empty: nothing is proposed
   std::string filter_response;  ///< empty: not written
   std::string explain;          ///< a name; empty: all of the scene is checked

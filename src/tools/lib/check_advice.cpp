@@ -27,7 +27,7 @@ constexpr double kOffCents = 2.0;  // that are worth a word
 constexpr double kLongS = 60.0;    // of T60
 constexpr double kMostOfLoss = 0.5;
 
-/// Of a number that shall be written into a scene: to a hundredth of a cent.
+/// Formats a number that is to be written into a scene: exact to a hundredth of a cent.
 std::string exactly(double value) {
   std::ostringstream text;
   text.precision(7);
@@ -97,7 +97,7 @@ std::string adviceOnPitch(const HeardBody& body,
          exactly(body.asked_hz * std::exp2(-body.cents / 1200.0)) + " Hz";
 }
 
-/// What is true of many bodies is said once.
+/// Adds one line of advice for all bodies that it applies to.
 void addOfMany(const std::vector<std::string>& names, const std::string& what, Json& advice) {
   if (!names.empty()) {
     const std::string others =

@@ -14,7 +14,7 @@ class App;
 
 namespace ergotic::tools {
 
-/// What a maker wants `check` to advise on.
+/// Options of the advice by `check`.
 struct AdviceChoice {
   bool is_wanted = false;
   std::vector<std::string> wishes;  ///< `pitch BODY HZ`, `t60 BODY S`, `margin M`
@@ -22,7 +22,7 @@ struct AdviceChoice {
 
 void addOptions(CLI::App& app, AdviceChoice& choice);
 
-/// Says on stdout what a maker may want to change, and which parameters make wishes come true.
+/// Prints possible changes of a scene, and the parameters that fulfil the wishes, on stdout.
 /// \param scene  not settled
 /// \throws Exception if a wish cannot be read, or no body has its name
 void checkAdvice(const scene::Scene& scene,

@@ -87,7 +87,7 @@ std::string pitchesIn(const Json& report) {
   });
 }
 
-/// How stiff a slice becomes, and how stiff it may.
+/// Lists the rendered stiffness of each port, and its passivity limit.
 std::string handsIn(const Json& report) {
   return listOf(report["ports"], [](const Json& port) {
     const std::string who =

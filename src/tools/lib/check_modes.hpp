@@ -13,7 +13,7 @@ class App;
 
 namespace ergotic::tools {
 
-/// Which modes `check` is asked for.
+/// Options of the modes by `check`.
 struct ModesChoice {
   bool are_wanted = false;
   physics::ModeWindow window;

@@ -9,7 +9,7 @@ namespace {
 
 using scene::Scene;
 
-/// What moves a point along, or across.
+/// Reports the mover of a point, along or across.
 void tellWay(const Scene& scene,
              const scene::Connection::Way& way,
              const std::string& suffix,

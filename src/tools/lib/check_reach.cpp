@@ -59,7 +59,7 @@ std::string listed(const std::vector<std::string>& names) {
              : list;
 }
 
-/// All that is met where the first is.
+/// Lists everything that the slice meets at the position of the first contact.
 std::string firstText(const PortReach& reach, const Meeting& first, double stroke_m) {
   std::vector<std::string> things;
   const physics::PushedMeeting* then = nullptr;
@@ -85,7 +85,7 @@ std::string firstText(const PortReach& reach, const Meeting& first, double strok
   return text;
 }
 
-/// Where nothing is met by distance: what the slice does instead.
+/// Describes the effect of a slice that meets nothing by distance.
 std::string otherwiseText(const PortReach& reach, double stroke_m) {
   if (!reach.guides.empty()) {
     return "nothing (it leads " + reach.guides.front().point + " along " +
@@ -199,7 +199,7 @@ void addOthers(const PortReach& reach, Json& entry) {
   }
 }
 
-/// How far notes move each slice, by the map beside the scene; none without one.
+/// Displacements of each slice by notes, from the map beside the scene; empty without a map.
 std::map<int, std::set<double>> movedByNotes(const scene::Scene& scene) {
   std::map<int, std::set<double>> moved;
   const std::string file = tgr::mapBeside(scene.file);

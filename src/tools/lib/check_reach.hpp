@@ -13,25 +13,25 @@ class App;
 
 namespace ergotic::tools {
 
-/// What `check` is asked of the reach of slices.
+/// Options of the reach of slices by `check`.
 struct ReachChoice {
   bool is_wanted = false;
-  double stroke_m = 0.0;  ///< of a slice to either side
+  double stroke_m = 0.0;  ///< stroke of a slice to either side
   ReachChoice();
 };
 
 void addOptions(CLI::App& app, ReachChoice& choice);
 
-/// Says on stdout what each slice meets and where, and nothing else.
+/// Prints the contacts of each slice and their positions on stdout, and nothing else.
 /// \param scene          settled
-/// \param end_effectors  what stands on the slices: their coordinates are told as ports of them
+/// \param end_effectors  of the slices: their coordinates are reported as ports of them
 /// \throws TextError from the map beside the scene
 void checkReach(const scene::Scene& scene,
                 const tgr::EndEffectors& end_effectors,
                 const ReachChoice& choice,
                 bool json);
 
-/// What is wrong with the reach of slices that move their ports by themselves.
+/// Finds errors in the reach of slices that move their ports by themselves.
 std::vector<std::string> reachFindings(const scene::Scene& scene,
                                        const std::vector<int>& taken_ports,
                                        const ReachChoice& choice);

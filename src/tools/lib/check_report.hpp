@@ -15,21 +15,21 @@
 /// The parts of the report of `check`, each in the source of its name.
 namespace ergotic::tools {
 
-/// What the scene says of itself.
+/// Reports the `about` part of the scene.
 Json aboutReport(const scene::About& about);
 
-/// How many modules each selection means.
+/// Reports the number of modules of each selection.
 Json selectionsReport(const scene::Scene& scene);
 
-/// The verdict on each variant of the scene.
-/// \param unstable  gets the names of those that cannot be played
+/// Reports the verdict on each variant of the scene.
+/// \param unstable  gets the names of the variants that cannot be played
 /// \throws TextError, Exception as reading does
 Json variantsReport(const std::vector<std::string>& variants,
                     const SceneOptions& options,
                     const physics::DeviceTraits& device,
                     std::vector<std::string>& unstable);
 
-/// Each section: its rate, geometry and place, modules, and how near to the limit it is.
+/// Reports each section: its rate, geometry and place, modules, and its distance to the limit.
 Json sectionsReport(const scene::Scene& scene,
                     const physics::Rates& rates,
                     const physics::Certificate& certificate);
@@ -48,22 +48,22 @@ struct DeviceChoice {
   physics::SensorNoise noise;
 };
 
-/// Who moves what, how stiff it is, and how much of the sensors' noise is felt.
+/// Reports for each port its mover, its stiffness, and the force noise from the sensors.
 Json portsReport(const scene::Scene& scene,
                  const physics::Rates& rates,
                  const physics::Certificate& certificate,
                  const physics::SensorNoise& noise);
 Json agentsReport(const scene::Scene& scene);
-/// What audio channels move or push, and what is heard on them.
+/// Report the modules that audio channels move or push, and the quantities output on them.
 Json inputsReport(const scene::Scene& scene);
 Json outputsReport(const scene::Scene& scene);
 
-/// Why the ports that the certificate refuses cannot be played, as the station says, too:
-/// `file:line:col: error: ...`.
+/// Errors of the ports that the certificate refuses, as the station reports them: `file:line:col:
+/// error: ...`.
 std::vector<std::string> refusedPorts(const physics::Certificate& certificate);
 
-/// The chaplets of a settled scene: what each is, what it is taken to work against, and what it
-/// lets through, dB, free and with that load, without the hold of the slower end.
+/// Reports the chaplets of a settled scene: the kind of each, its assumed load, and its gain, dB,
+/// free and with that load, without the hold of the slower end.
 Json filtersReport(const scene::Scene& scene, const physics::Rates& rates);
 
 /// Writes the response of every chaplet of a settled scene from 0 to 4 fN, for a picture of it:
@@ -75,8 +75,8 @@ void writeFilterResponse(const std::string& path,
                          const scene::Scene& scene,
                          const physics::Rates& rates);
 
-/// What a musician wants to know of a scene, in about ten lines: whether it is stable, its pitches,
-/// hands, outputs and parameters, what it costs here, and every warning.
+/// Prints a brief report, in about ten lines: the stability of a scene, its pitches, hands, outputs
+/// and parameters, its cost on this machine, and every warning.
 /// \param report  the whole report of `check`
 void printBrief(const Json& report, std::ostream& out);
 

@@ -10,15 +10,15 @@
 
 #include "tgr/drivers/virtual/force_record.hpp"
 
-/// What the virtual devices that are processes of their own have in common.
+/// Common parts of the virtual devices that are processes of their own.
 namespace ergotic::tools {
 
-/// SIGINT and SIGTERM, blocked in the thread that makes it and in those that this one starts.
+/// Blocks SIGINT and SIGTERM in the thread that makes it and in those that this one starts.
 class Signals {
  public:
   Signals();
   /// Calls `each` every 10 ms until it is false, a signal comes, or the time is over.
-  /// \param seconds  0: there is no end
+  /// \param seconds  0: no time limit
   void attend(double seconds, const std::function<bool()>& each) const;
 
  private:
@@ -41,7 +41,7 @@ class ForceLog {
     tgr::drainForces(device, file_);
     file_.flush();
   }
-  /// For the last time. \throws Exception if the file does not hold all of them
+  /// Writes the remaining records. \throws Exception if the file does not hold all of them
   template <class Device>
   void finish(Device& device) {
     drain(device);

@@ -13,7 +13,7 @@ namespace ergotic::tools {
 /// \throws TextError from the file, Exception if it cannot be read
 tgr::EndEffectors readEndEffectors(const std::string& file);
 
-/// What each slice meets of a scene through end-effectors.
+/// Reports the load of each slice by a scene through end-effectors.
 Json slicesReport(const tgr::EndEffectors& end_effectors,
                   const std::vector<station::SliceLoad>& slices);
 

@@ -7,7 +7,7 @@
 
 namespace ergotic::tools {
 
-/// What `expand` is asked for.
+/// Options of `expand`.
 struct ExpandOptions {
   std::string scene;
   std::string variant;

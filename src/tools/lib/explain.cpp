@@ -15,7 +15,7 @@ namespace {
 using scene::Place;
 using scene::Scene;
 
-/// Every part of a scene that has a name.
+/// Visits every part of a scene that has a name.
 template <class Visit>
 void visit(const Scene& scene, Visit visitor) {
   const auto all = [&](const auto& parts) {
@@ -60,7 +60,7 @@ bool tellsOf(const std::string& line, const std::string& name) {
           line.find_first_of(",} ", at + says.size()) == at + says.size());
 }
 
-/// The lines of the plain text that tell of it; empty if there are none.
+/// Lines of the plain text that describe the named element; empty if there are none.
 std::string linesOf(const Scene& scene, const std::string& name) {
   std::istringstream text(scene.text);
   std::string lines;

@@ -7,8 +7,8 @@
 
 namespace ergotic::tools {
 
-/// Where something of a scene comes from: its place and the instances it is in, and what the plain
-/// text says of it, or of the generator that made it.
+/// Explains the origin of an element of a scene: its place, its instances, and its plain text, or
+/// that of the generator that made it.
 /// \throws Exception if there is nothing of that name
 std::string explain(const scene::Scene& scene, const std::string& name);
 

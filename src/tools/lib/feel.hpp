@@ -14,9 +14,9 @@ class App;
 
 namespace ergotic::tools {
 
-/// How a virtual hand goes about feeling a slice.
+/// Options of a virtual hand that probes a slice.
 struct FeelChoice {
-  std::string slice;           ///< `slice:N`; empty: nobody feels
+  std::string slice;           ///< `slice:N`; empty: no probing
   double travel = 0.02;        ///< m at the device, from the zero of the hand; < 0: the other way
   std::vector<double> speeds;  ///< m/s at the device, > 0; none: 0.01 and 0.5
   std::string csv;             ///< empty: not written
@@ -28,29 +28,29 @@ void addOptions(CLI::App& app, FeelChoice& choice);
 /// N of `slice:N`. \throws Exception if it is none
 int sliceOf(const FeelChoice& choice);
 
-/// What the hand meets at one tick.
+/// State of the hand at one tick.
 struct FeltTick {
   double position = 0.0;  ///< m at the device
   double speed = 0.0;     ///< m/s
-  double force = 0.0;     ///< N on the hand, along its axis: what resists is against the speed
+  double force = 0.0;     ///< N on the hand, along its axis: a resisting force is against the speed
 };
 
-/// There and back at one speed.
+/// Motion there and back at one speed.
 struct Stroke {
   double speed = 0.0;    ///< m/s
   std::size_t turn = 0;  ///< the first tick of the way back
   std::vector<FeltTick> ticks;
 };
 
-/// What a stroke says in numbers.
+/// Characteristic values of a stroke.
 struct StrokeFigures {
   double speed = 0.0;      ///< m/s
   double press_j = 0.0;    ///< work of the hand on the way there
-  double release_j = 0.0;  ///< that it gets back
+  double release_j = 0.0;  ///< work that the hand gets back
   double peak_n = 0.0;     ///< largest force
-  double stiffest = 0.0;   ///< N/m: steepest rise of what resists, up to where that is largest
-  /// N at which something lets go on the way there: from which what resists falls by more than
-  /// half; 0: nothing does.
+  double stiffest = 0.0;   ///< N/m: steepest rise of the resisting force, up to its maximum
+  /// Release force on the way there: the resisting force at which it drops by more than half, N; 0:
+  /// it does not drop.
   double release_n = 0.0;
 };
 

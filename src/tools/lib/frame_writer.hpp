@@ -11,19 +11,19 @@
 
 namespace ergotic::tools {
 
-/// What is wanted of a sound beyond its being written.
+/// Requests for the processing of a finished sound.
 struct SoundWish {
-  std::optional<double> loudness;  ///< LUFS, as far as the true peak allows; none: as it was played
-  double fade_s = 0.0;             ///< how long its end fades away, s
+  std::optional<double> loudness;  ///< LUFS, as far as the true peak allows; none: unchanged
+  double fade_s = 0.0;             ///< duration of the fade at its end, s
 
   bool isAny() const noexcept { return loudness || fade_s > 0.0; }
 };
 
-/// Where a rendered sound goes: a WAV file that appears under its name only when it is whole.
+/// Writer of a rendered sound: a WAV file that appears under its name only when it is whole.
 class FrameWriter {
  public:
   /// \param path      empty: the sound is measured, not kept
-  /// \param channels  of the sound; a sound without channels cannot be kept
+  /// \param channels  number of channels; a sound without channels cannot be kept
   ///
   /// A symbolic link is followed. \throws Exception with path and reason; also for a device, a pipe
   /// and whatever else is no regular file, as the header of a WAV file is written last
@@ -40,17 +40,17 @@ class FrameWriter {
   /// \throws Exception naming the frame if a sample is not finite; or if the disk is full
   void write(const double* frames, std::int64_t nframes);
 
-  /// Does what is wished, measures the sound, and gives the file its name.
+  /// Processes the sound as wished, measures it, and gives the file its name.
   /// \throws Exception with path and reason
   void finish();
 
   std::int64_t frames() const noexcept { return frames_; }
   double peak() const noexcept { return peak_; }  ///< largest magnitude so far
-  /// Beyond full scale, 24-bit files only. \pre finished
+  /// Number of samples beyond full scale, in 24-bit files only. \pre finished
   std::int64_t clippedSamples() const noexcept { return clipped_; }
-  /// Of the finished file; none if nothing is kept.
+  /// Level of the finished file; none if nothing is kept.
   const std::optional<SoundLevel>& level() const noexcept { return level_; }
-  double gain() const noexcept { return gain_; }  ///< by which it was normalized
+  double gain() const noexcept { return gain_; }  ///< gain of the normalization
 
  private:
   void grantWish();

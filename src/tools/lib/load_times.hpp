@@ -21,7 +21,7 @@ class LoadTimes {
   /// \param what  is being done, for the terminal
   void begin(const std::string& key, const std::string& what);
   /// Ends the last stage.
-  /// \param parts  modules and links that the memory is for
+  /// \param parts  number of modules and links that the memory is for
   Json finish(std::size_t parts);
 
  private:

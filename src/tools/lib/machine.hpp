@@ -5,7 +5,7 @@
 
 namespace ergotic::tools {
 
-/// Of this machine, as it calls itself; `unknown` if it does not.
+/// Name of the processor of this machine; `unknown` if there is none.
 std::string processorName();
 
 /// Name, release and version of the running kernel, as `uname -srv`.

@@ -47,7 +47,7 @@ std::vector<double> windowOf(std::size_t length) {
   return window;
 }
 
-/// What a windowed stretch has of a frequency.
+/// Amplitude of a windowed stretch at a frequency.
 double levelAt(const std::vector<double>& stretch, double omega) {
   const Complex turn = std::polar(1.0, -omega);
   Complex phase = 1.0;
@@ -131,7 +131,7 @@ double decayOf(const std::vector<double>& energy, double rate_hz) {
   return -std::log(1e6) / slope / rate_hz;
 }
 
-/// In place. \pre a power of two. Source: Cooley and Tukey 1965
+/// Fourier transform in place. \pre the length is a power of two. Source: Cooley and Tukey 1965
 void transform(std::vector<Complex>& x) {
   const std::size_t n = x.size();
   for (std::size_t i = 1, j = 0; i < n; ++i) {

@@ -7,11 +7,11 @@
 
 namespace ergotic::tools {
 
-/// What is measured of a sound. All are exact for what their words say, as far as windows separate
-/// it from all else: four terms of Blackman and Harris, whose side lobes lie 92 dB below. \throws
-/// Exception where there is too little of it, or not what is to be measured
+/// Measurements of a sound. All are exact within their definitions, as far as windows separate
+/// components: four terms of Blackman and Harris, whose side lobes lie 92 dB below. \throws
+/// Exception if the sound is too short, or lacks the measured quantity
 
-/// One channel.
+/// Samples of one channel.
 struct Sound {
   std::vector<double> samples;
   double rate_hz = 44100.0;
@@ -20,7 +20,7 @@ struct Sound {
 
 struct Line {
   double hz = 0.0;
-  double amplitude = 0.0;  ///< as the mean of the window sees it
+  double amplitude = 0.0;  ///< amplitude as the mean of the window gives it
 };
 
 /// The highest line of a stretch within a share of a frequency: the top of a parabola through the
@@ -37,7 +37,7 @@ double decayOf(const Sound& sound, double begin_s, double near_hz);
 struct Pole {
   double hz = 0.0;
   double t60_s = 0.0;
-  double amplitude = 0.0;  ///< at the beginning
+  double amplitude = 0.0;  ///< amplitude at the beginning
 };
 
 /// The strongest decaying lines next to a frequency, by frequency: how the dominant space of their
@@ -50,7 +50,8 @@ double centroidAt(const Sound& sound, double begin_s);
 /// Largest sample from a time on, of the largest of all.
 double levelAfter(const Sound& sound, double begin_s);
 
-/// When a distance was below 0, s: the longest time at one go, with straight lines between samples.
+/// Longest continuous time for which a distance is below 0, s, with linear interpolation of
+/// samples.
 double longestBelow(const std::vector<double>& distance, double rate_hz);
 
 }  // namespace ergotic::tools

@@ -25,20 +25,20 @@ enum ExitCode {
 
 /// The scene and the rates that a tool is asked for.
 struct SceneOptions {
-  std::string scene;              ///< path; may be empty where a recording tells
+  std::string scene;              ///< path; may be empty for a recording
   std::vector<std::string> set;   ///< NAME=VALUE
-  std::string variant;            ///< of the scene; empty: none
+  std::string variant;            ///< variant of the scene; empty: none
   double rate_hz = 0.0;           ///< 0: 44100
   double gestural_rate_hz = 0.0;  ///< 0: as the scene wishes
 };
 
 void addOptions(CLI::App& app, SceneOptions& options);
 
-/// How the instrument is to be compiled, as far as a tool is told.
+/// Options of the compilation, as far as they are given to a tool.
 struct CompileChoice {
-  std::string precision;  ///< empty: not told
-  std::string isa;        ///< empty: not told
-  int threads = 0;        ///< 0: not told
+  std::string precision;  ///< empty: not given
+  std::string isa;        ///< empty: not given
+  int threads = 0;        ///< 0: not given
 };
 
 void addOptions(CLI::App& app, CompileChoice& choice);
@@ -59,23 +59,23 @@ scene::Scene readScene(const SceneOptions& options);
 /// \throws Exception if the scene cannot be run at the rates asked for
 physics::Rates chosenRates(const scene::Scene& scene, const SceneOptions& options);
 
-/// The options of a tool: what it is told, and `otherwise` where it is told nothing.
+/// Options of the compilation: those given to the tool, and `otherwise` for the rest.
 physics::CompileOptions chosenOptions(
     const CompileChoice& choice, physics::CompileOptions otherwise = physics::Precision::kAuto);
 
 /// "float, avx2, 1 thread".
 std::string toString(const physics::CompileOptions& options);
 
-/// What a reader should know about a scene in samples of another rate; empty if there is nothing.
+/// Note on a scene in samples of another rate; empty if there is none.
 std::string conversionNote(const scene::Scene& scene, const physics::Rates& rates);
 
-/// Numbers have to be finite: `nan` would pass every check of a range. \pre all options are there
+/// Requires finite numbers: `nan` would pass every check of a range. \pre all options are there
 void checkNumbers(CLI::App& app);
 
 /// Parses a command line and runs `tool`; errors go to stderr. \return the exit code
 int runTool(CLI::App& app, int argc, char** argv, const std::function<int()>& tool);
 
-/// The same of a tool of which no more is known than its name, what it does and what adds options.
+/// As above, for a tool given by its name, its purpose and a function that adds its options.
 int runTool(const std::string& name,
             const std::string& what_it_does,
             const std::function<void(CLI::App&)>& add_options,
@@ -83,7 +83,7 @@ int runTool(const std::string& name,
             char** argv,
             const std::function<int()>& tool);
 
-/// The same of a tool whose options are known to `addOptions`.
+/// As above, for a tool whose options are known to `addOptions`.
 template <class Options>
 int runTool(const std::string& name,
             const std::string& what_it_does,

@@ -71,7 +71,7 @@ inline double worstPartialDb(const std::vector<double>& sound,
   return worst;
 }
 
-/// How far a is above b.
+/// Interval from b up to a, cents.
 inline double cents(double a, double b) {
   return 1200.0 * std::log2(a / b);
 }

@@ -57,7 +57,7 @@ class EndingSource final : public tgr::GestureSource {
   bool& ended_;
 };
 
-/// Nothing enters where there is no file at all.
+/// Source of the input sound; without any file there is none.
 replay::SoundSource sourceOf(SoundInputs inputs) {
   replay::SoundSource source;
   source.channels = inputs.channels();

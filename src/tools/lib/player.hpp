@@ -20,35 +20,36 @@ class Player {
 
   virtual const physics::Rates& rates() const = 0;
   virtual int outputChannels() const = 0;
-  virtual const physics::Instrument& instrument() const = 0;  ///< that plays
+  virtual const physics::Instrument& instrument() const = 0;  ///< instrument that plays
 
   /// \param[out] frames  [R][output channels], where R frames make a tick
   /// \return false if there is no more; `frames` is untouched then
   /// \throws Exception if the model blows up; a recorded one does what it did
   virtual bool next(double* frames) = 0;
 
-  /// What went wrong so far, though the sound is good; empty: nothing.
+  /// Error so far that leaves the sound valid; empty: none.
   virtual std::string trouble() const { return {}; }
 
-  /// Why the sound is not that of the performance that is played again, in order; empty: it is.
+  /// Reasons for which the sound differs from the recorded performance, in order; empty: it is
+  /// equal.
   virtual std::vector<std::string> flaws() const { return {}; }
 
-  /// Ticks that are left to play; -1: no end.
+  /// Number of ticks left to play; -1: no end.
   virtual std::int64_t ticksLeft() const { return -1; }
 
-  /// How much is played if nobody says it, s.
+  /// Default duration, s.
   virtual double usualSeconds() const { return kUsualSeconds; }
   static constexpr double kUsualSeconds = 10.0;
 
-  /// What of the gesture is not played as it is written, if `seconds` are played. Rows may be
-  /// `late_s` later without a word.
+  /// Warnings about parts of the gesture that are not played as written, if `seconds` are played.
+  /// Rows may be `late_s` later without a warning.
   virtual std::vector<std::string> gestureWarnings(double /*seconds*/, double /*late_s*/) const {
     return {};
   }
 };
 
-/// The instrument alone: nobody touches the slices, they rest at the zero of the hand. The sound
-/// keeps the precision of the instrument's outputs.
+/// Makes a player of the instrument alone, without hands: the slices rest at the zero of the hand.
+/// The sound keeps the precision of the instrument's outputs.
 std::unique_ptr<Player> makeFreePlayer(std::unique_ptr<station::Performer> performer,
                                        SoundInputs inputs);
 

@@ -23,7 +23,7 @@ class Progress {
   int shown_percent_ = -1;
 };
 
-/// One line on stderr that says what is being done; nothing where stderr is not a terminal.
+/// Progress line on stderr; nothing is printed if stderr is not a terminal.
 class StageLine {
  public:
   StageLine();

@@ -43,7 +43,7 @@ bool endsWith(const std::string& text, const std::string& end) {
   return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
 }
 
-/// What was chosen for the scene is told by `check --verbose`.
+/// Prints warnings without notes; `check --verbose` prints the notes.
 void sayWarnings(const station::Performer& performer) {
   for (const std::string& line : performer.warnings) {
     if (line.find(": note: ") == std::string::npos) {
@@ -82,7 +82,7 @@ void meetTarget(const RenderOptions& options,
   compile.precision = proposal.precision;
 }
 
-/// The scene of the command line, played by nobody, by a CSV file or by a song.
+/// Makes the player of the command line's scene: a CSV file, a song, or neither of them.
 std::unique_ptr<Player> playScene(const RenderOptions& options) {
   if (options.scene.scene.empty()) {
     throw CLI::ValidationError("SCENE", "needed without a recording");
@@ -126,7 +126,7 @@ std::unique_ptr<Player> playScene(const RenderOptions& options) {
              : makeHandPlayer(std::move(performer), std::move(inputs), options.gesture);
 }
 
-/// Nothing is heard, and nobody else plays.
+/// Probes the slices of a scene; there is no sound and no other player.
 int feelScene(const RenderOptions& options) {
   if (options.scene.scene.empty() || !options.gesture.empty() || !options.midi.empty() ||
       !options.out.empty() || !options.inputs.empty() || !options.target.empty()) {
@@ -155,7 +155,8 @@ void compareScene(const std::string& path, const bag::Keyframe& keyframe) {
   }
 }
 
-/// Which kernels play does not change the sound, so that a recording may come from anywhere.
+/// Notes that the recording used other kernels; they do not change the sound, so that a recording
+/// may come from any machine.
 void compareIsa(const bag::Keyframe& keyframe, rt::Isa isa, bool asked_for) {
   if (!asked_for && keyframe.isa != nameOf(isa)) {
     say("note: recorded with kernels for " + keyframe.isa +
@@ -215,8 +216,8 @@ std::int64_t framesOf(const RenderOptions& options, const Player& player) {
   return player.ticksLeft() < 0 ? std::llround(player.usualSeconds() * rate) : recorded;
 }
 
-/// Who says --seconds may want the beginning of a gesture, but hardly a tenth of it: what is longer
-/// is written in milliseconds.
+/// Warns of the part of a gesture that is not played. With --seconds the begin of a gesture may be
+/// wanted, but hardly a tenth of it: a longer file was probably written in milliseconds.
 void sayWhatOfTheGestureIsLost(const RenderOptions& options, const Player& player) {
   constexpr double kHardlyWanted = 9.0;
   const bool is_chosen = options.seconds > 0.0;
@@ -262,7 +263,7 @@ std::string summary(const Player& player, const FrameWriter& writer, double work
   return line.str();
 }
 
-/// How loud the file is, and what would make it as loud as is usual.
+/// Prints the level of the file, and the option that gives the usual loudness.
 void sayLevel(const FrameWriter& writer, const std::string& out) {
   if (!writer.level()) {
     return;

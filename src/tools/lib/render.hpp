@@ -9,20 +9,20 @@
 
 namespace ergotic::tools {
 
-/// What `render` is asked for.
+/// Options of `render`.
 struct RenderOptions {
   SceneOptions scene;
   CompileChoice compile;
-  double seconds = 0.0;  ///< 0: 10, or as long as the recording or the song is
+  double seconds = 0.0;  ///< 0: 10, or the duration of the recording or the song
   std::string out;       ///< empty: nothing is kept
   std::string out_format = "float";
-  double loudness = 0.0;            ///< wanted, LUFS; 0: the sound stays as it was played
-  double fade_s = 0.0;              ///< of its end
+  double loudness = 0.0;            ///< LUFS; 0: the sound is not normalized
+  double fade_s = 0.0;              ///< duration of the fade at its end
   std::vector<std::string> inputs;  ///< NAME=FILE
-  std::string gesture;              ///< empty: nobody plays
+  std::string gesture;              ///< empty: no gesture
   std::string midi;                 ///< empty: no song plays
-  std::string map;                  ///< of its notes; empty: that of the scene
-  std::string station;              ///< whose recording of a bag; empty: of the only one
+  std::string map;                  ///< map of the notes; empty: that of the scene
+  std::string station;              ///< recorded station of a bag; empty: the only one
   std::string end_effectors;        ///< file; empty: ports move with their own slices
   std::string target;               ///< empty: the scene is played as it is
   FeelChoice feel;                  ///< in place of a sound

@@ -34,7 +34,7 @@ bool isVector(const Json& json) {
          std::all_of(json.begin(), json.end(), [](const Json& item) { return item.is_number(); });
 }
 
-/// A map of numbers and words, however deep: may stand on one line.
+/// Whether a value may be printed on one line: a map of numbers and words, however deep.
 bool fitsInFlow(const Json& json) {
   return json.is_primitive() || isVector(json) ||
          (json.is_object() && !json.empty() && std::all_of(json.begin(), json.end(), fitsInFlow));
@@ -54,7 +54,7 @@ std::string flow(const Json& json) {
   return json.is_object() ? "{" + line + "}" : "[" + line + "]";
 }
 
-/// \param after_dash  the first line goes on where a list item began
+/// \param after_dash  the first line continues that of a list item
 void printText(const Json& json, std::ostream& out, int depth, bool after_dash) {
   for (const auto& [name, child] : json.items()) {
     out << (after_dash ? "" : indent(depth));

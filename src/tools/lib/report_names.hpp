@@ -4,7 +4,7 @@
 #include "ergotic/scene/scene.hpp"
 #include "tools/lib/report.hpp"
 
-/// What the elements of a scene are called in reports. Laws have their names themselves.
+/// Names of the elements of a scene in reports. Laws define their own names.
 namespace ergotic::scene {
 
 NLOHMANN_JSON_SERIALIZE_ENUM(MatType,

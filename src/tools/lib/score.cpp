@@ -74,7 +74,7 @@ class SongScorer {
   }
 
  private:
-  /// Each text once.
+  /// Adds a warning; each text once.
   void warn(const std::string& place, const std::string& what) {
     const std::string line = place + ": warning: " + what;
     if (std::find(score_.warnings.begin(), score_.warnings.end(), line) == score_.warnings.end()) {

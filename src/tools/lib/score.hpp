@@ -13,11 +13,10 @@
 
 namespace ergotic::tools {
 
-/// What happens at a station beside what its device does by itself. Times are in s since the first
-/// tick.
+/// Events at a station, in addition to those of its device. Times are in s since the first tick.
 struct Score {
   struct Move {
-    double time_s = 0.0;  ///< what the move says of its delay counts from there
+    double time_s = 0.0;  ///< reference time of the delay in the move
     tgr::HandMove move;
   };
   struct Value {
@@ -27,8 +26,8 @@ struct Score {
   };
   std::vector<Move> moves;            ///< in order of time
   std::vector<Value> values;          ///< in order of time
-  double end_s = 0.0;                 ///< when the last of what it was made of happens
-  std::vector<std::string> warnings;  ///< what of it is passed over
+  double end_s = 0.0;                 ///< time of the last event of its source
+  std::vector<std::string> warnings;  ///< messages that are skipped
 };
 
 /// Brings a score to a station, each part at its tick: what happens during a tick is there from the
@@ -59,14 +58,14 @@ Score scoreOfGesture(const std::string& file, const scene::Scene& scene);
 /// The map by which notes play a scene, as at a live station.
 struct SongMap {
   tgr::PlayMap map;
-  std::string name;  ///< for messages
+  std::string name;  ///< name, for messages
 };
 /// \param file  of the map; empty: that beside the scene, or else each slice a key
 /// \throws TextError, Exception from the file
 SongMap songMapFor(const scene::Scene& scene, const std::string& file);
 
-/// What hands and parameters do when a song plays a scene.
-/// \param slices  of the device, whose hands can be moved
+/// Makes the score of hands and parameters for a song that plays a scene.
+/// \param slices  number of slices of the device, whose hands can be moved
 /// \throws Exception if no note of the song has a key
 Score scoreOf(const Song& song,
               SongMap map,

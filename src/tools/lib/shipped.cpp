@@ -16,7 +16,8 @@
 namespace ergotic::tools {
 namespace {
 
-/// From lib/ergotic of an install space, or devel/lib/ergotic of the sources, to where models lie.
+/// Folders between lib/ergotic of an install space, or devel/lib/ergotic of the sources, and the
+/// models.
 constexpr int kMostFoldersUp = 3;
 
 }  // namespace

@@ -8,14 +8,14 @@ class App;  // its header takes seconds to compile
 class Option;
 }  // namespace CLI
 
-/// What stands beside the tools, in a devel as in an install space.
+/// Files that are shipped with the tools, in a devel as in an install space.
 namespace ergotic::tools {
 
 /// The folder of the program that runs. \throws Exception if the system does not say
 std::string programFolder();
 
-/// The scene file that somebody means: `asked` itself, or of a name that is no file the shipped
-/// instrument of that name, if there is one: `guitar`.
+/// Finds a scene file: `asked` itself, or, if that is no file, the shipped instrument of that name,
+/// as `guitar`.
 std::string sceneFile(const std::string& asked);
 
 /// Adds the scene, as a file or as the name of a shipped instrument.

@@ -44,8 +44,8 @@ bool isOfAChannel(const smf_event_t& event) {
          event.midi_buffer[0] >= kFirst && event.midi_buffer[0] <= kLast;
 }
 
-/// Of all tracks, in order of time; at the same time in the order of the tracks. The next event, as
-/// libsmf says it, is not always the earliest one.
+/// Events of all tracks, in order of time; at the same time in the order of the tracks. The next
+/// event by libsmf is not always the earliest one.
 std::vector<const smf_event_t*> eventsOf(const smf_t& song) {
   std::vector<const smf_event_t*> events;
   for (int t = 1; t <= song.number_of_tracks; ++t) {

@@ -8,16 +8,16 @@
 
 namespace ergotic::tools {
 
-/// What a MIDI file says to instruments, in order of time: messages of channels, no others.
+/// Channel messages of a MIDI file, in order of time.
 struct Song {
   struct Message {
     double time_s = 0.0;  ///< since the beginning, by the tempos of the file
     std::array<std::uint8_t, 3> bytes{};
-    int size = 0;  ///< of `bytes`
+    int size = 0;  ///< size of `bytes`
   };
   std::string file;
   std::vector<Message> messages;
-  std::vector<std::string> warnings;  ///< what of the file cannot be understood
+  std::vector<std::string> warnings;  ///< parts of the file that cannot be interpreted
 };
 
 /// Reads a standard MIDI file of format 0 or 1, with all of its tracks.

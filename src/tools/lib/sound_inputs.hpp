@@ -18,8 +18,8 @@ class SoundInputs {
   SoundInputs(const std::vector<std::string>& files, const scene::Scene& scene, double rate_hz);
 
   int channels() const noexcept { return static_cast<int>(sounds_.size()); }
-  bool areSilent() const noexcept { return !any_; }  ///< no file at all
-  /// What of the files is not as who names them expects, in full sentences.
+  bool areSilent() const noexcept { return !any_; }  ///< whether there is no file at all
+  /// Warnings about files with unexpected properties, in full sentences.
   const std::vector<std::string>& warnings() const noexcept { return warnings_; }
 
   /// Fills [nframes][channels] from frame `first` on. Realtime: yes

@@ -10,17 +10,17 @@
 
 namespace ergotic::tools {
 
-/// Loudness that `render --normalize` gives a sound unless it is told another one, LUFS.
+/// Default loudness of `render --normalize`, LUFS.
 constexpr double kUsualLoudness = -18.0;
 /// True peak that a normalized sound never exceeds, dBTP.
 constexpr double kHighestPeakDb = -1.0;
 
-/// How loud a whole sound is.
+/// Level of a whole sound.
 struct SoundLevel {
   /// Integrated loudness by ITU-R BS.1770-4, LUFS; none if all of it lies below the gate of -70
   /// LUFS.
   std::optional<double> loudness;
-  double true_peak_db = 0.0;  ///< largest of all channels, between the samples, too; dBTP
+  double true_peak_db = 0.0;  ///< maximum over all channels, also between samples; dBTP
   std::vector<double> peaks;  ///< [channels] largest magnitude of a sample, full scale is 1
 };
 
@@ -35,7 +35,7 @@ std::string describe(const SoundLevel& level);
 /// kHighestPeakDb or below. 1 for a silent sound.
 double normalizingGain(const SoundLevel& level, double wanted_loudness);
 
-/// What is done to a finished sound.
+/// Processing of a finished sound.
 struct SoundFinish {
   double gain = 1.0;
   double fade_s =

@@ -10,17 +10,17 @@
 
 namespace ergotic::tools {
 
-/// What the command line leaves open: rates and precision that it names are kept.
+/// Freedom of a proposal: rates and precision that the command line names are kept.
 physics::Freedom freedomOf(const SceneOptions& options, const CompileChoice& compile);
 
-/// What is proposed and why, with the cost of both on this machine.
+/// Reports the proposal and its reasons, with the cost of both versions on this machine.
 Json targetReport(const scene::Scene& scene,
                   const physics::Rates& rates,
                   const physics::CompileOptions& options,
                   const std::string& target,
                   const physics::Freedom& freedom);
 
-/// The same in a few lines, without costs that have to be measured.
+/// Describes a proposal in a few lines, without costs that have to be measured.
 std::vector<std::string> targetLines(const physics::Target& target,
                                      const physics::Proposal& proposal);
 

@@ -20,7 +20,7 @@ namespace {
 using scene::Truth;
 constexpr int kEnergyTicks = 64;  // between looks at the energy accounts
 
-/// Of its file, and only below its folder: a scene may be a stranger's.
+/// Path of a truth's gesture, only below the scene's folder: a scene may come from a stranger.
 std::string gestureOf(const scene::Scene& scene, const Truth& truth) {
   const std::size_t slash = scene.file.rfind('/');
   const std::string folder = slash == std::string::npos ? "." : scene.file.substr(0, slash);
@@ -50,7 +50,7 @@ std::unique_ptr<station::Performer> truthPerformer(scene::Scene scene,
   return station::makePerformer(std::move(scene), rates, options, policy);
 }
 
-/// Nobody holds the slices; the force of a tap or pluck comes by an input of its own.
+/// Plays with free slices; the force of a tap or pluck enters by an input of its own.
 class FreePlay {
  public:
   FreePlay(scene::Scene scene,

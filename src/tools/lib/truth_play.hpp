@@ -13,8 +13,8 @@ namespace ergotic::tools {
 
 /// A scene that was played for its truths.
 struct PlayedTruth {
-  std::vector<Sound> sounds;  ///< as many as were asked for
-  double begin_s = 0.0;       ///< when the tap or pluck is over
+  std::vector<Sound> sounds;  ///< requested sounds
+  double begin_s = 0.0;       ///< end of the tap or pluck
   double imbalance =
       0.0;  ///< largest residual of the energy accounts, if kept, of the most stored energy
 };

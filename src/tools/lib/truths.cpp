@@ -19,13 +19,13 @@ constexpr double kLineS = 1.0;  // in which lines are told apart
 constexpr double kGlideS = 0.1;
 constexpr double kLongestS = 60.0;  // that are played unasked
 
-/// Of the j-th partial, Hz.
+/// Frequency of the j-th partial, Hz.
 double partialHz(const Truth& truth, int j) {
   const double b = truth.inharmonicity;
   return truth.near_hz * j * std::sqrt((1.0 + b * j * j) / (1.0 + b));
 }
 
-/// After the tap or pluck.
+/// Duration to play after the tap or pluck, s.
 double secondsOf(const Truth& truth) {
   const auto largest = [](const std::vector<double>& of, double otherwise) {
     return of.empty() ? otherwise : *std::max_element(of.begin(), of.end());
@@ -103,7 +103,7 @@ class Judge {
     }
   }
 
-  /// In the order in which its truths take them.
+  /// Outputs of a truth, in the order in which it takes them.
   std::vector<scene::Output> listensTo(const Truth& truth) const {
     const scene::Scene& scene = claims_.scene;
     if (truth.what == What::kEnergy) {
@@ -272,7 +272,8 @@ class Judge {
     return {};
   }
 
-  /// Up to a time: what others need of a performance must not change what is measured.
+  /// Cuts a sound at a time: the rest of a performance, for other truths, must not change the
+  /// result.
   static Sound cut(const Sound& sound, double end_s) {
     Sound part = sound;
     part.samples.resize(std::min(part.samples.size(),

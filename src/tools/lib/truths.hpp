@@ -10,22 +10,22 @@
 
 namespace ergotic::tools {
 
-/// What came of a truth.
+/// Result of a truth.
 struct JudgedTruth {
   bool holds = false;
-  std::vector<double> measured;  ///< as many as were expected, or one; none: see `trouble`
-  double off = 0.0;              ///< the furthest from what is expected, as its tolerance counts
-  std::string trouble;           ///< why it could not be measured
+  std::vector<double> measured;  ///< as many as expected, or one; none: see `trouble`
+  double off = 0.0;              ///< largest deviation, in the measure of its tolerance
+  std::string trouble;           ///< reason why it could not be measured
 };
 
-/// Plays a scene as its truths say and measures what they claim, those that are played alike at one
-/// go.
+/// Plays a scene as its truths say and measures what they claim; truths that are played alike share
+/// one run.
 /// Realtime: no. Cost: some seconds of sound for each way of playing
 std::vector<JudgedTruth> judgeTruths(const scene::ClaimingScene& claims,
                                      const physics::Rates& rates,
                                      const physics::CompileOptions& options);
 
-/// What is expected of the numbers that are measured; bounds have none.
+/// Expected values of the measured numbers; bounds have none.
 std::vector<double> expectedOf(const scene::Truth& truth);
 
 /// Prints a line for each truth, or JSON. \return true if all hold

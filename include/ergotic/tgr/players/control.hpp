@@ -9,21 +9,21 @@
 
 namespace ergotic::tgr {
 
-/// What a player turns, bends or presses, on any channel.
+/// A control that a player moves (wheel, knob, pressure, axis), on any channel.
 struct Control {
   enum class Kind : std::uint8_t {
     kController,  ///< 0...1
-    kBend,        ///< -1...1, 0 when it is let go
-    kPressure,    ///< 0...1, of a channel or of the key that is pressed most
-    kAxis         ///< of a gamepad, see GamepadAxis
+    kBend,        ///< -1...1, 0 when released
+    kPressure,    ///< 0...1, of a channel, or of its most pressed key
+    kAxis         ///< axis of a gamepad, see GamepadAxis
   };
   Kind kind = Kind::kController;
-  int number = 0;  ///< of a controller, MIDI, or of an axis
+  int number = 0;  ///< MIDI number of a controller, or number of an axis
 
   bool operator==(const Control& other) const {
     return kind == other.kind && number == other.number;
   }
-  /// Whether it comes back to a middle, 0, when it is let go: bends and sticks, -1...1.
+  /// Whether the control returns to a middle, 0, when released: bends and sticks, -1...1.
   bool hasMiddle() const;
 };
 
@@ -36,21 +36,22 @@ double bendOf(int low, int high);
 /// A parameter of the scene shall have another value.
 struct ParameterChange {
   std::string parameter;
-  double share = 0.0;  ///< of its range, 0...1; -1...1 if it is bent
+  double share = 0.0;  ///< share of the range, 0...1; -1...1 if it is bent
   bool is_bent = false;
 };
 
-/// Of a parameter: 0 of a bend is its usual value.
+/// Range of a parameter; `usual` is its value when a bend is 0.
 struct ParameterRange {
   double low = 0.0;
   double usual = 0.0;
   double high = 1.0;
 };
 
-/// Evenly in the value, or in its logarithm if the range has more than two decades above zero.
+/// Value of a parameter: linear in the share, or logarithmic if the range has more than two decades
+/// above zero.
 double valueOf(const ParameterChange& change, const ParameterRange& range);
 
-/// Binds the next control that somebody moves to a parameter. Thread: one
+/// Binds the next control that a player moves to a parameter. Thread: one
 class Learner {
  public:
   struct Learnt {
@@ -60,17 +61,18 @@ class Learner {
 
   /// \param parameter  that the next control shall move; empty: it waits for none any more
   void wait(std::string parameter);
-  /// What was learnt has no effect any more, and it waits for nothing.
+  /// Removes all learnt bindings, and stops waiting.
   void forget();
 
   /// \param share  where the control is, -1...1
-  /// \return what was learnt by that: it went further than `kLittle` from where it was first heard
+  /// \return the new binding, if the control moved by more than `kLittle` since it was first
+  /// received
   std::optional<Learnt> hear(const Control& control, double share);
 
-  /// Of a control that was learnt. \return null for others
+  /// Parameter that a control was bound to by learning. \return null for others
   const std::string* parameterOf(const Control& control) const;
 
-  /// A hand that rests on a wheel, and what sends a value now and then, binds nothing.
+  /// Threshold: a hand resting on a wheel, and a source of occasional values, bind nothing.
   static constexpr double kLittle = 8.5 / 127.0;
 
  private:
@@ -79,10 +81,10 @@ class Learner {
   std::vector<Learnt> learnt_;
 };
 
-/// Which channels have notes of their own, by MIDI Polyphonic Expression (MMA/AMEI RP-053). The
-/// manager of the lower zone is channel 0, and its members follow it upwards; that of the upper
-/// zone is channel 15, and its members follow it downwards. Of two zones that would share channels
-/// the one that was configured last has them. Channels are 0...15. Thread: one
+/// MPE zones: the channels with notes of their own, by MIDI Polyphonic Expression (MMA/AMEI
+/// RP-053). The manager of the lower zone is channel 0, and its members follow it upwards; that of
+/// the upper zone is channel 15, and its members follow it downwards. If two zones would share
+/// channels, the one that was configured last has them. Channels are 0...15. Thread: one
 class MpeZones {
  public:
   static constexpr int kAllMembers = 15;
@@ -90,7 +92,8 @@ class MpeZones {
   /// \param wanted  by the map, the lower zone with all members unless the player's device has
   ///                said otherwise; nothing: as the device has said, which says it once
   void use(std::optional<bool> wanted) { wanted_ = wanted; }
-  /// Any controller; registered parameter 6 on a manager's channel tells how many members.
+  /// Takes any controller; registered parameter 6 on a manager's channel sets the number of
+  /// members.
   void hear(int channel, int controller, int value);
 
   bool isOn() const { return lowerMembers() > 0 || upperMembers() > 0; }

@@ -8,34 +8,35 @@
 
 namespace ergotic::tgr {
 
-/// Where a hand shall go.
+/// Motion command for one hand.
 struct Stroke {
   std::string end_effector;  ///< empty: `index` is a slice
   int index = 0;
   double target_m = 0.0;
-  double glide_s = 0.0;  ///< on a path of minimum jerk that takes so long; 0: see `after_s`
+  double glide_s = 0.0;  ///< duration of a minimum-jerk path; 0: see `after_s`
   /// A glide begins so much later than the note; what is no glide is there so much later, on a
   /// straight line from the stroke before.
   double after_s = 0.0;
-  bool lets_go = false;  ///< of the hand; the target has no effect
+  bool lets_go = false;  ///< the hand lets go; the target has no effect
 };
 using Strokes = std::vector<Stroke>;
 
-/// What hands were told, so that one that is under way can be sent elsewhere without a jump.
+/// Record of the commands to hands, so that a moving hand can be redirected without a jump.
 ///
-/// A tick draws straight lines between targets, and begins a glide where the hand is. Between the
-/// two, and from within a line, a stroke to where the hand is at that time makes a corner.
+/// A tick draws straight lines between targets, and begins a glide at the hand's position. If a
+/// hand is redirected within a line, or to a line after a glide, a stroke to its position at that
+/// time is added first.
 /// Times are in s, of one clock that does not go back. Thread: one
 class HandWays {
  public:
-  /// Which hand: an end-effector's coordinate, or a slice.
+  /// A hand: an end-effector's coordinate, or a slice.
   using Hand = std::pair<std::string, int>;
 
-  /// What a hand that follows lags behind, s: no staircase is heard of what comes in steps.
+  /// Lag of a hand that follows, s; it smooths a staircase of input values.
   static constexpr double kLagS = 0.02;
 
-  /// \param rest_m  where a hand is that was told nothing
-  /// \return where it was told to be last
+  /// \param rest_m  position of a hand that has no command yet
+  /// \return target of its last command
   double toldOf(const Hand& hand, double rest_m) const;
 
   /// Goes there on a path of minimum jerk. \param after_s  it begins so much later than now
@@ -46,8 +47,8 @@ class HandWays {
              double now_s,
              Strokes& strokes);
 
-  /// Goes there on a straight line, within `kLagS` if that is not too fast. A glide that is under
-  /// way goes on to its end first: it is what a note sounds by.
+  /// Moves a hand on a straight line, within `kLagS` if that is not too fast. A glide that is under
+  /// way is finished first, as it makes the sound of a note.
   /// \param rest_m  as `toldOf`. \param speed  m/s, at most
   void follow(const Hand& hand,
               double target_m,
@@ -56,9 +57,9 @@ class HandWays {
               double now_s,
               Strokes& strokes);
 
-  /// No effect on one that was told nothing.
+  /// Makes a hand let go; no effect on a hand without a command.
   void letGo(const Hand& hand, Strokes& strokes);
-  /// All have let go by themselves.
+  /// Clears the record after all hands have let go by themselves.
   void clear() { ways_.clear(); }
 
  private:

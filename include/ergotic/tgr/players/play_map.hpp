@@ -10,32 +10,32 @@
 
 namespace ergotic::tgr {
 
-/// What something moves that has any value between two ends: a parameter of the scene, or hands.
+/// Motion between two ends by a continuous control: of a parameter of the scene, or of hands.
 struct Motion {
-  std::string parameter;     ///< goes over its whole range; empty: hands move
+  std::string parameter;     ///< parameter, over its whole range; empty: hands move
   std::vector<int> indices;  ///< slices, or coordinates of an end-effector
-  std::string end_effector;  ///< whose coordinates these are; empty: they are slices
-  double from_m = 0.0;       ///< where the hands are at one end
-  double to_m = 0.0;         ///< and at the other
-  double speed = 1.0;        ///< m/s, greatest one of the hands
+  std::string end_effector;  ///< end-effector of these coordinates; empty: they are slices
+  double from_m = 0.0;       ///< position of the hands at one end
+  double to_m = 0.0;         ///< position at the other end
+  double speed = 1.0;        ///< peak speed of the hands, m/s
 };
 
-/// How some notes move a hand: a line of a map.
+/// Motion of a hand by a range of notes: one line of a map.
 struct KeyLine {
   int first_note = 0;  ///< MIDI numbers, 60 is middle C
   int last_note = 127;
   /// Slices, or coordinates of an end-effector; note first_note + i moves number i of them, and
-  /// from the last on it begins anew.
+  /// after the last one the sequence begins anew.
   std::vector<int> indices;
-  std::string end_effector;             ///< whose coordinates these are; empty: they are slices
-  double from_m = 0.0;                  ///< where the hand rests
-  double to_m = 0.0;                    ///< where it goes
-  double slowest = 0.05;                ///< m/s, greatest speed of the hand at velocity 1
-  double fastest = 1.0;                 ///< at velocity 127; between them evenly in the logarithm
-  double back = 0.3;                    ///< m/s, greatest speed of its way back
-  bool strikes = false;                 ///< goes back at once; else when the key is released
-  std::optional<double> pressure_to_m;  ///< where it goes when the key is pressed with all force
-  /// What bend and slide (controller 74) of the note move, hands of them as many as of notes.
+  std::string end_effector;  ///< end-effector of these coordinates; empty: they are slices
+  double from_m = 0.0;       ///< rest position of the hand
+  double to_m = 0.0;         ///< position of a pressed key
+  double slowest = 0.05;     ///< peak speed at velocity 1, m/s
+  double fastest = 1.0;      ///< peak speed at velocity 127; logarithmic in between
+  double back = 0.3;         ///< peak speed of the return, m/s
+  bool strikes = false;      ///< returns at once; else when the key is released
+  std::optional<double> pressure_to_m;  ///< position under full key pressure
+  /// Motions by bend and by slide (controller 74) of the note, with one hand for each note.
   std::optional<Motion> bend, slide;
 };
 
@@ -47,11 +47,11 @@ struct ControlLine {
 
 struct PlayMap {
   std::vector<KeyLine> keys;
-  std::vector<ControlLine> controls;  ///< by MIDI, and of gamepads
-  std::vector<ButtonLine> buttons;    ///< of gamepads
-  bool has_gamepad = false;           ///< it says what gamepads do; else they do what is usual
-  int transpose = 0;                  ///< semitones, added to each note
-  /// Each note has a channel of its own (MPE); nothing: if the player's device says so.
+  std::vector<ControlLine> controls;  ///< MIDI controls and gamepad axes
+  std::vector<ButtonLine> buttons;    ///< buttons of gamepads
+  bool has_gamepad = false;  ///< the map defines gamepads; else the usual assignment applies
+  int transpose = 0;         ///< semitones, added to each note
+  /// Whether each note has a channel of its own (MPE); empty: as the player's device says.
   std::optional<bool> mpe;
 };
 

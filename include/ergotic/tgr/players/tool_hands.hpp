@@ -15,11 +15,11 @@ namespace ergotic::tgr {
 /// Understands where hands shall go: coordinates of end-effectors become slices. Thread: one
 class ToolHands {
  public:
-  /// What hands are wanted to do.
+  /// Request for a motion of hands.
   struct Wish {
     std::string end_effector;            ///< empty: `indices` are slices
     std::vector<std::uint32_t> indices;  ///< slices, or coordinates of the end-effector
-    std::vector<double> targets_m;       ///< [indices]; without effect if they let go
+    std::vector<double> targets_m;  ///< target positions, [indices]; no effect if the hands let go
     bool lets_go = false;
   };
 
@@ -28,7 +28,7 @@ class ToolHands {
   /// \throws TextError if one of them cannot be put together
   explicit ToolHands(const EndEffectors& end_effectors);
 
-  /// Whether an end-effector of that name stands on slices.
+  /// Whether there is an end-effector of that name.
   bool has(const std::string& end_effector) const;
 
   /// \pre there is a target for each index, unless they let go

@@ -8,13 +8,13 @@
 
 namespace ergotic::tgr {
 
-/// No force beyond the limit, and none beyond what is compiled in. Realtime: yes
+/// Limits the force, to the setting and to the compiled-in maximum. Realtime: yes
 class ForceLimit {
  public:
   explicit ForceLimit(double limit_n) noexcept
       : limit_n_(std::clamp(limit_n, 0.0, kAbsoluteForceLimitN)) {}
 
-  /// Not a number becomes 0.
+  /// Limited force, N; not a number becomes 0.
   double limited(double force) const noexcept {
     return std::isnan(force) ? 0.0 : std::clamp(force, -limit_n_, limit_n_);
   }

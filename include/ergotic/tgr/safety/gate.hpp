@@ -10,14 +10,15 @@ class Gate {
   Gate(double ramp_s, double resume_ramp_s, double tick_s) noexcept
       : step_(tick_s / ramp_s), resume_step_(tick_s / resume_ramp_s) {}
 
-  /// From gain 0; no effect while it is open.
+  /// Ramps the gain in from 0; no effect while the gate is open.
   void open() noexcept;
   void close() noexcept;
-  /// To gain 0 and back by the shorter line; neither opens the gate nor shortens the longer line.
+  /// Sets the gain to 0 and ramps it in by the shorter line; neither opens the gate nor shortens
+  /// the longer line.
   void resume() noexcept { resume_gain_ = 0.0; }
 
   bool isOpen() const noexcept { return open_; }
-  double ramp() const noexcept { return ramp_; }  ///< 0...1, of the longer line
+  double ramp() const noexcept { return ramp_; }  ///< 0...1, position on the longer line
 
   /// Gain of this tick, 0...1; moves on to the next. \pre isOpen()
   double next() noexcept;

@@ -19,28 +19,30 @@ struct GuardianOptions {
   int priority = 80;        ///< SCHED_FIFO of the guardian, 1...99; 0: an ordinary process
 };
 
-/// A small process that outlives this one. Whatever ends this process, or stops it, the guardian
-/// takes the force off the devices, through what it holds of them (Driver::guards).
+/// A small process that outlives this one. When this process ends or hangs, the guardian takes the
+/// force off the devices, with the data that it holds of them (Driver::guards).
 ///
-/// It hears the end of this process from the kernel, at once, and knows a process that hangs by
-/// beats that do not come. Time in which the guardian itself did not run is no silence. It has a
-/// session of its own, so that no signal of a terminal reaches it, and ends by itself.
+/// The kernel reports the end of this process to the guardian at once; a hang shows as missing
+/// heartbeats. Time in which the guardian itself did not run does not count as silence. The
+/// guardian has a session of its own, so that no signal of a terminal reaches it, and ends by
+/// itself.
 class Guardian {
  public:
   /// Returns when the guardian holds all of them. Realtime: no. Thread: setup
   /// \throws DeviceError saying what it cannot hold, or that there is no such program
   Guardian(const std::vector<Guard>& guards, const GuardianOptions& options);
-  /// The guardian ends without touching a device. \pre the devices were given back
+  /// Ends the guardian without touching a device. \pre the devices were given back
   ~Guardian();
   Guardian(const Guardian&) = delete;
   Guardian& operator=(const Guardian&) = delete;
 
-  /// This process lives: at least four times in `silence_s`, from the first one on.
+  /// Heartbeat of this process: at least four per `silence_s`, from the first one on.
   /// Realtime: yes. Thread: any
   void beat() noexcept;
-  /// False once the guardian has died, or has not looked at us during eight of these calls: one
-  /// that was stopped, which is ended then. Called every eighth of `silence_s`, that is a whole
-  /// `silence_s`. What keeps us from asking is no fault of the guardian. Realtime: no. Thread: one
+  /// Returns false once the guardian has died, or has not looked during eight of these calls, as
+  /// when it was stopped; it is ended then. Call every eighth of `silence_s`, so that this takes a
+  /// whole `silence_s`. Time in which this process could not ask is not counted against the
+  /// guardian. Realtime: no. Thread: one
   bool isWatching() noexcept;
   pid_t pid() const noexcept { return pid_; }
 

@@ -40,29 +40,31 @@ class PortEnergy {
   /// A sample came. \param dx  m. \param ticks  since the last one
   void moved(double dx, std::int64_t ticks) noexcept;
 
-  /// What it will be, but for the force that is now to be issued, if every tick moves by `dx`: J.
+  /// Energy to come, without the force that is to be issued now, if every tick moves by `dx`: J.
   double predicted(double dx) const noexcept;
 
-  /// The model wants this force, at the position of the last `moved`. \param force  N, limited
+  /// Records the force that the model wants at the position of the last `moved`. \param force  N,
+  /// limited
   void follow(double force) noexcept;
-  /// Nobody knows where the force that comes next was 0: it is taken to be kUnknownWayM away, to
-  /// where it pushes. A hand that rests in a wall when a model comes is to feel all of it.
+  /// Marks the position at which the next force was 0 as unknown: it is taken to be kUnknownWayM
+  /// away, in the direction of the push. A hand that rests in a wall when a model starts then gets
+  /// its full force.
   void loseTrack() noexcept { is_lost_ = true; }
-  /// The gain of the force has changed.
+  /// Takes a change of the gain of the force into account.
   void lift(double gain_change) noexcept;
 
-  /// This force will be sent by the next exchange.
+  /// Records a force, which the next exchange will send.
   void issue(double force) noexcept;
-  /// The force issued last is not sent, but zero.
+  /// Records that zero is sent instead of the force issued last.
   void withdraw() noexcept { under_way_[newest_] = 0.0; }
   double issued() const noexcept { return under_way_[newest_]; }  ///< N
 
   double energy() const noexcept { return energy_; }  ///< J
   double least() const noexcept { return least_; }    ///< J, since `forget`
 
-  /// From 0; what is under way stays.
+  /// Sets the energy to 0; forces under way stay.
   void restart() noexcept { energy_ = 0.0; }
-  /// All but what the model wants.
+  /// Clears everything but the force that the model wants.
   void forget() noexcept;
 
   static constexpr int kMaxDelayTicks = 256;

@@ -17,7 +17,7 @@ class PositionCheck {
     double limit_m = 0.0;
     double max_step_m = 0.0;        ///< per tick
     std::int64_t frozen_ticks = 0;  ///< 0: a value may stay the same for ever
-    std::int64_t still_ticks = 0;   ///< that make it doubtful; 0: never
+    std::int64_t still_ticks = 0;   ///< same value for so long: doubtful; 0: never
   };
   explicit PositionCheck(const Rules& rules) noexcept : rules_(rules) {}
 
@@ -27,13 +27,13 @@ class PositionCheck {
   /// \return kNone, kBadPosition, kJump or kFrozen
   FaultReason accept(double& x, std::int64_t ticks) noexcept;
 
-  /// No sample came. \param[out] x  the last good one, m
+  /// Accounts for a missing sample. \param[out] x  the last good one, m
   void hold(double& x, std::int64_t ticks) noexcept;
 
-  /// Has its value been the very same for so long that it should move nobody?
+  /// Whether the value has been constant for so long that no force should be based on it.
   bool isStill() const noexcept { return rules_.still_ticks > 0 && same_ >= rules_.still_ticks; }
 
-  /// The next good sample may be anywhere within the limit.
+  /// Forgets the last sample: the next good one may be anywhere within the limit.
   void forget() noexcept;
 
  private:

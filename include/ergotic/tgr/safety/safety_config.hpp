@@ -3,8 +3,8 @@
 
 namespace ergotic::tgr {
 
-/// What the safety chain of a station keeps, the same for every slice. docs/safety.md has the
-/// equations and says why. Ranges are checked by SafetyChain.
+/// Limits of a station's safety chain, the same for every slice. docs/safety.md has the equations
+/// and their reasons. Ranges are checked by SafetyChain.
 struct SafetyConfig {
   // Force.
   double force_limit_n = 20.0;      ///< per slice, 0...kAbsoluteForceLimitN
@@ -15,18 +15,17 @@ struct SafetyConfig {
 
   // Position.
   double position_limit_m = 0.1;   ///< |x| of a slice from here on is a bad sample, 0.001...1
-  double max_speed_m_per_s = 5.0;  ///< of a slice; faster is a Fault, 0.1...100
+  double max_speed_m_per_s = 5.0;  ///< speed limit of a slice; faster is a Fault, 0.1...100
   int max_missing = 20;            ///< ticks a missing sample is held before a Fault, 0...1000
   /// A sensor that gives the very same value for this long is a Fault, 0.001...10; 0: never. Only
   /// for sensors whose noise is larger than their quantum.
   double frozen_s = 0.0;
 
   // Energy.
-  double energy_limit_j = 0.3;    ///< given out by a model before it is a Fault, 0.001...100
-  double energy_cap_j = 0.02;     ///< of what a port dissipated it remembers this, 0.001...10
-  double energy_supply_w = 5e-5;  ///< that a port may give out of its own, 0...20
-  double slice_damping =
-      0.0;  ///< of a slice by itself, N s/m, 0...100; a station sets it by its driver
+  double energy_limit_j = 0.3;  ///< a model that gives out more is a Fault, 0.001...100
+  double energy_cap_j = 0.02;  ///< remembered part of the energy that a port dissipated, 0.001...10
+  double energy_supply_w = 5e-5;  ///< power that a port may give out of its own, 0...20
+  double slice_damping = 0.0;     ///< own damping of a slice, set from the driver, N s/m, 0...100
   bool passivity_controller = false;
   double slice_mass_kg = 0.3;  ///< bounds the damping of the passivity controller, 0.01...100
 };

@@ -15,45 +15,46 @@
 
 namespace ergotic::tgr {
 
-/// What a slice's chain has seen since the last `recover`, for diagnostics.
+/// Readings of a slice's chain since the last `recover`, for diagnostics.
 struct SliceReading {
-  double energy_j = 0.0;           ///< of the port, now
-  double least_energy_j = 0.0;     ///< of the port; below 0: so much it gave out
-  std::int64_t clamped_ticks = 0;  ///< in which the energy clamp cut the force
-  std::int64_t muted_ticks = 0;    ///< in which its sensor stood still and its force was 0
-  double peak_raw_force_n = 0.0;   ///< of the model
+  double energy_j = 0.0;           ///< present energy of the port
+  double least_energy_j = 0.0;     ///< least energy of the port; below 0: that much was given out
+  std::int64_t clamped_ticks = 0;  ///< ticks in which the energy clamp cut the force
+  std::int64_t muted_ticks = 0;    ///< ticks with a constant sensor value, and force 0
+  double peak_raw_force_n = 0.0;   ///< peak force of the model
 };
 
-/// All steps of the safety chain that one slice has for itself. Realtime: yes, all but the
+/// Steps of the safety chain that each slice has for itself. Realtime: yes, all but the
 /// constructor.
 class SliceChain {
  public:
   /// \param delay_ticks  of the whole loop, 1...PortEnergy::kMaxDelayTicks
   SliceChain(const SafetyConfig& config, double tick_s, int delay_ticks);
 
-  /// A sample came. \param[in,out] x  m, replaced if bad. \param ticks  since the last call
+  /// Takes a sample. \param[in,out] x  m, replaced if bad. \param ticks  since the last call
   FaultReason accept(double& x, std::int64_t ticks) noexcept;
-  /// No sample came. \param[out] x  m
+  /// Accounts for a missing sample. \param[out] x  m
   void hold(double& x, std::int64_t ticks) noexcept;
 
-  /// Detectors. \param raw  N, as the model wants it, for the position of this tick
+  /// Runs the detectors. \param raw  N, as the model wants it, for the position of this tick
   /// \param open  force goes out: only then is energy judged
   FaultReason inspect(double raw, bool open) noexcept;
 
   /// Ramps, passivity controller, slew, limit, energy clamp. \return N, to be sent
   double limited(double raw, double gain) noexcept;
-  /// No force is sent.
+  /// Records that no force is sent.
   void release() noexcept;
 
   /// \pre the gain starts from 0
   void engage() noexcept;
-  /// No force was sent, and the model moved on without a look.
+  /// Restarts after ticks without force in which the model moved on unchecked.
   void resume() noexcept;
-  /// All but where the model's force was 0: hands may still be inside a wall.
+  /// Resets all but the position at which the model's force was 0: hands may still be inside a
+  /// wall.
   void recover() noexcept;
   void forget() noexcept;
 
-  /// The last `limited` took away a force worth the name because the sensor stands still.
+  /// Whether the last `limited` removed a significant force because the sensor value is constant.
   bool justMuted() const noexcept { return just_muted_; }
   SliceReading reading() const noexcept;
 

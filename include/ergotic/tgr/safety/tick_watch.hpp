@@ -5,15 +5,15 @@
 
 namespace ergotic::tgr {
 
-/// Tells from outside whether ticks go on, and whether it is the ticks or the whole machine that
-/// stood still. Reads no clock itself. Realtime: yes. Thread: one
+/// Detects from outside whether ticks go on, and whether the ticks alone or the whole machine had
+/// stopped. Reads no clock itself. Realtime: yes. Thread: one
 ///
-/// What counts as silence is time in which ticks could have run: of the time between two looks at
-/// most one `interval`. A look that comes late was late because the machine, or the process, stood
-/// still, and the ticks with it.
+/// Silence is time in which ticks could have run: of the time between two looks at most one
+/// `interval` counts. A late look means that the machine, or the process, had stopped, and the
+/// ticks with it.
 class TickWatch {
  public:
-  /// \param period_ns    of silence that means that ticks have stopped
+  /// \param period_ns    silence after which ticks count as stopped
   /// \param interval_ns  between two looks, as planned
   TickWatch(std::int64_t period_ns, std::int64_t interval_ns) noexcept
       : period_ns_(period_ns), interval_ns_(interval_ns) {}
@@ -26,9 +26,9 @@ class TickWatch {
   /// \return true once when ticks have stopped; it is disarmed then
   bool look(std::int64_t now_ns, std::int64_t ticks) noexcept;
 
-  /// From the first look that saw the last tick to the last look, by the clock.
+  /// Time from the first look that saw the last tick to the last look, by the clock.
   std::int64_t silenceNs() const noexcept { return last_look_ns_ - last_move_ns_; }
-  /// Looks that came later than planned by more than `period_ns`.
+  /// Number of looks that came later than planned by more than `period_ns`.
   std::int64_t machineStalls() const noexcept { return machine_stalls_; }
   std::int64_t longestStallNs() const noexcept { return longest_stall_ns_; }
 

@@ -10,30 +10,30 @@
 namespace ergotic::tgr {
 
 struct WatchdogOptions {
-  double period_s = 0.02;  ///< of silence before it acts, 0.004...1
+  double period_s = 0.02;  ///< silence before it acts, 0.004...1
   /// SCHED_FIFO, 1...99, above the tick's: a tick that never ends must not keep it from the
   /// processor. 0: an ordinary thread.
   int priority = 80;
   std::function<void()> beat = [] {};  ///< called with each look, in its thread
 };
 
-/// What a watchdog has seen since it was made, for diagnostics.
+/// Readings of a watchdog since it was made, for diagnostics.
 struct WatchdogReading {
-  std::int64_t bites = 0;           ///< times it acted
-  std::int64_t silence_ns = 0;      ///< since the last tick when it acted last
-  std::int64_t machine_stalls = 0;  ///< of the whole machine, or the process, longer than a period
-  std::int64_t longest_stall_ns = 0;  ///< of these
+  std::int64_t bites = 0;           ///< number of times it acted
+  std::int64_t silence_ns = 0;      ///< time since the last tick, when it last acted
+  std::int64_t machine_stalls = 0;  ///< stalls of the machine or the process, longer than a period
+  std::int64_t longest_stall_ns = 0;  ///< longest of these stalls
 };
 
 /// Makes a device safe when ticks stop coming: a thread outside the real-time one that looks at a
 /// counter of ticks four times in a period.
 ///
 /// It acts once, between 1 and 1.25 periods after the last tick, and then rests until it is armed
-/// again. A stall of the whole machine is none of its business, see TickWatch: the tick source sees
-/// that one itself, and only the device's own watchdog can act during it.
+/// again. It ignores a stall of the whole machine, see TickWatch: the tick source detects that one
+/// itself, and during it only the device's own watchdog can act.
 class Watchdog {
  public:
-  /// What to do about it. Thread: the watchdog's
+  /// Action when ticks have stopped. Thread: the watchdog's
   /// \param silence_ns  since the last tick
   using Bite = std::function<void(std::int64_t silence_ns)>;
 
@@ -49,12 +49,14 @@ class Watchdog {
   /// Idempotent; takes at most a quarter of a period. Realtime: no. Thread: setup
   void stop() noexcept;
   bool isRunning() const noexcept { return thread_.joinable(); }
-  /// What `start` could not get, and what to do about it; empty: nothing. Thread: setup
+  /// Warning: what the system refused to `start`, and what to do about it; empty: none. Thread:
+  /// setup
   const std::string& warning() const noexcept { return warning_; }
 
   /// Watches from the next tick on. Realtime: yes. Thread: any
   void arm() noexcept { wanted_ = true; }
-  /// Before ticks are stopped on purpose. An act under way is not waited for. Thread: any
+  /// Stops watching, before ticks are stopped on purpose. Does not wait for an action under way.
+  /// Thread: any
   void disarm() noexcept { wanted_ = false; }
   /// False after it acted. Realtime: yes. Thread: any
   bool isArmed() const noexcept { return wanted_; }

@@ -14,7 +14,7 @@
 
 namespace ergotic::tgr {
 
-/// Between the volts and the numbers of one channel, linear over its range.
+/// Conversion between the volts and the numbers of one channel, linear over its range.
 struct ComediScale {
   double low_volts = 0.0;
   double high_volts = 0.0;
@@ -39,18 +39,19 @@ class ComediBoard {
   ComediBoard(const ComediBoard&) = delete;
   ComediBoard& operator=(const ComediBoard&) = delete;
 
-  /// One list of instructions: every output is written, then every input is read.
+  /// Runs one list of instructions: every output is written, then every input is read.
   /// \param[in]  outputs  [slices] V, limited to the range; what is not a number is the safe volts
   /// \param[out] inputs   [slices] V; those that were not read are left as they are
   /// \return ExchangeFlag bits. Realtime: yes, if the board's kernel driver is. Thread: tick
   std::uint32_t exchange(const double* outputs, double* inputs) noexcept;
 
-  /// Safe volts at every output. The kernel runs one list after the other, and this one reads
-  /// nothing that changes.
+  /// Writes the safe volts to every output. The kernel runs one list after the other, and this one
+  /// reads nothing that changes.
   /// \return ExchangeFlag bits. Realtime: as exchange. Thread: any
   std::uint32_t writeSafe() noexcept;
 
-  /// For a guardian: our file, and what is written to be safe. Realtime: no
+  /// Data for a guardian: the open file, and the instructions that write the safe volts. Realtime:
+  /// no
   Guard guard() const;
 
  private:

@@ -13,7 +13,7 @@
 namespace ergotic::tgr {
 
 /// A measurement board under Linux' comedi: an analog input and an analog output per slice, volts.
-/// What it does and guarantees is in docs/tgr.md.
+/// Its behaviour and its guarantees are in docs/tgr.md.
 ///
 /// Safe: `makeSafe` latches, then writes the safe volts itself, in the calling thread. A list of
 /// the tick that the kernel runs after that one was made before the latch; the tick looks at the
@@ -21,7 +21,8 @@ namespace ergotic::tgr {
 /// can come late, and it is undone by the same `exchange`. The tick itself only latches: its next
 /// list has the safe volts, and where that fails it writes nothing but them.
 ///
-/// Lost: `board_` is the tick's as long as `online_`, else of the thread that opens and closes.
+/// Lost: `board_` belongs to the tick as long as `online_`, else to the thread that opens and
+/// closes.
 class ComediDriver final : public Driver {
  public:
   explicit ComediDriver(ComediSettings settings) : settings_(std::move(settings)) {}

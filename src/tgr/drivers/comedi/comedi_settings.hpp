@@ -18,7 +18,7 @@ struct ComediRange {
   double high_volts = 10.0;
 };
 
-/// What the `comedi` driver is told. Slice i is read at `ai_channels[i]` and driven by
+/// Settings of the `comedi` driver. Slice i is read at `ai_channels[i]` and driven by
 /// `ao_channels[i]`.
 struct ComediSettings {
   std::string board = "/dev/comedi0";
@@ -33,8 +33,8 @@ struct ComediSettings {
   int discard = 0;  ///< conversions thrown away after switching to a channel, 0...16
   int average = 1;  ///< conversions averaged after these, 1...64
   bool deglitch = false;
-  std::vector<double> safe_volts;  ///< one per slice: what the amplifier takes as no force
-  std::optional<double> damping;   ///< of a slice by itself, N s/m, if it is known
+  std::vector<double> safe_volts;  ///< one per slice: volts that the amplifier takes as no force
+  std::optional<double> damping;   ///< own damping of a slice, N s/m, if it is known
 
   int slices() const { return static_cast<int>(ai_channels.size()); }
 };
@@ -44,7 +44,7 @@ struct ComediSettings {
 /// \throws TextError with file:line:col, value and allowed range
 ComediSettings readComediSettings(const YAML::Node& node, const std::string& file);
 
-/// By the index of the AREF_ constants.
+/// Names of the references, by the index of the AREF_ constants.
 extern const std::vector<std::string> kComediReferences;
 
 }  // namespace ergotic::tgr

@@ -18,9 +18,9 @@ struct JackDeviceConfig {
   VirtualDriverConfig bank;       ///< its slices, in metres and newtons; nothing of a driver
   double metres_per_unit = 0.05;  ///< position at full scale, 1e-4...1
   double newtons_per_unit = 200;  ///< force at full scale, 0.1...1000
-  int latency_frames = 0;         ///< of its converters, in the way of the positions, 0...65536
-  bool declares_latency = true;   ///< to JACK; real converters often do not
-  double watchdog_s = 0.0;        ///< longest time between heartbeats, 0...10; 0: no watchdog
+  int latency_frames = 0;  ///< latency of its converters, in the path of the positions, 0...65536
+  bool declares_latency = true;  ///< to JACK; real converters often do not
+  double watchdog_s = 0.0;       ///< longest time between heartbeats, 0...10; 0: no watchdog
 };
 
 /// A virtual TGR behind a sound card of its own: a JACK client that takes forces (and a heartbeat)
@@ -29,16 +29,17 @@ struct JackDeviceConfig {
 /// Frame n of the positions is sampled before the force of frame n acts. JACK closes the loop
 /// through a driver with one period of delay; the rest of the round trip is `latency_frames`.
 ///
-/// With a watchdog there is force only while the heartbeat changes its sign: what an amplifier
-/// behind a plain sound card does not have. Without blocks there is no force either.
+/// With a watchdog there is force only while the heartbeat changes its sign; an amplifier behind a
+/// plain sound card has no such watchdog. Without blocks there is no force either.
 class JackDevice final : public rt::AudioProcessor {
  public:
   /// \throws TextError and Exception as SliceBank, Exception if a number is out of range
   explicit JackDevice(const JackDeviceConfig& config);
 
-  /// The client that plays it: ports `force_1`..., `heartbeat`, and `position_1`... .
+  /// Configuration of the client that plays it: ports `force_1`..., `heartbeat`, and
+  /// `position_1`... .
   audio::JackConfig jackConfig(const std::string& client, const std::string& server) const;
-  /// Round trip that JACK is told of, at this period.
+  /// Round trip that is declared to JACK, at this period.
   int declaredFrames(std::uint32_t period) const noexcept;
 
   void audioStarted(double sample_rate_hz, std::uint32_t period_frames) override;

@@ -101,8 +101,9 @@ void JackDriver::waitForDevice() const {
   }
 }
 
-/// What was measured counts more than what JACK has been told; nothing is faster than a period.
-/// JACK tells of latencies when it gets round to it, some time after the wires are there.
+/// Waits until the round trip is known. A measured value takes precedence over the one that JACK
+/// declares; no round trip is shorter than a period. JACK reports latencies some time after the
+/// ports are connected.
 int JackDriver::waitForRoundTrip() const {
   const bool is_measured = config_.round_trip_frames > 0;
   const auto known = lookUntil([&](const audio::JackStatus& status) {

@@ -19,9 +19,9 @@ struct JackDriverConfig {
   std::vector<std::string> force_ports;     ///< as above, as many
   std::string heartbeat_port;               ///< as above; empty: none
   double volts_per_unit = 1.0;              ///< volts at full scale, both ways
-  std::optional<double> damping;            ///< of a slice by itself, N s/m, if it is known
-  int round_trip_frames = 0;                ///< as measured; 0: what JACK says
-  double wait_s = 5.0;                      ///< for server and ports, then for the round trip
+  std::optional<double> damping;            ///< own damping of a slice, N s/m, if it is known
+  int round_trip_frames = 0;                ///< measured value; 0: as JACK declares it
+  double wait_s = 5.0;  ///< timeout for server and ports, then for the round trip
 };
 
 /// Reads the settings of the driver, see docs/tgr.md. \param file  for messages

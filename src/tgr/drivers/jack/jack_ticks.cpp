@@ -110,7 +110,8 @@ void JackTicks::process(const rt::Period& period) noexcept {
   gate_.leave();
 }
 
-/// Also notes where the next period should begin. Negative if the host gave two periods one time.
+/// Counts the frames left out before this period, and predicts the begin of the next one. Negative
+/// if the host gave two periods one time.
 std::int64_t JackTicks::framesLeftOut(const rt::Period& period) noexcept {
   std::int64_t left_out = period.start.frames - next_frame_;
   if (restarted_) {  // another server counts anew; time goes on

@@ -35,13 +35,13 @@ class JackTicks final : public rt::AudioProcessor, public DeviceClock {
       : slices_(slices), volts_per_unit_(volts_per_unit) {}
 
   // The driver. Thread: setup
-  /// Before the host lives. \param hz  of the ticks
+  /// Prepares for ticks, before the host lives. \param hz  rate of the ticks
   void open(double tick_rate_hz);
   /// Blocks of another period are refused from here on: delay limits rest on it.
   void pin() noexcept { pinned_ = period_.load(); }
-  /// After the host lived.
+  /// Ends the ticks, after the host has gone.
   void close() noexcept { open_ = false; }
-  /// Why the host was refused last, empty: it was not. Thread: any
+  /// Reason why the host was refused last, empty: it was not. Thread: any
   std::string refusal() const;
   /// Frames of a tick, of a period. \pre the host has started
   int ratio() const noexcept { return ratio_; }
@@ -52,14 +52,14 @@ class JackTicks final : public rt::AudioProcessor, public DeviceClock {
   void rearm() noexcept { safe_ = false; }
   std::int64_t xruns() const noexcept { return xruns_; }
 
-  /// As Driver::exchange, in volts. Within a tick only forces are taken. Realtime: yes. Thread:
-  /// tick
+  /// Exchanges as Driver::exchange, in volts. Within a tick only forces are taken. Realtime: yes.
+  /// Thread: tick
   ERGOTIC_REALTIME std::uint32_t exchange(const double* forces, double* positions) noexcept;
 
   // DeviceClock
   void start(TickTarget& target) override;
   void stop() noexcept override { gate_.close(); }
-  /// Of a period of the host.
+  /// Duration of a period of the host, s.
   double periodS() const noexcept override { return period_ / (ratio_ * tick_rate_hz_); }
 
   // The host

@@ -12,19 +12,19 @@
 namespace ergotic::tgr {
 
 struct StepMeterConfig {
-  int channel = 0;          ///< of the step and of its answer, the same
-  double step = 0.1;        ///< full scale units
+  int channel = 0;    ///< number of the output with the step, and of the input with its answer
+  double step = 0.1;  ///< full scale units
   double threshold = 1e-5;  ///< change of the answer that counts, units
-  int latency_frames = 0;   ///< of converters that a step has to pass on its way out
+  int latency_frames = 0;   ///< latency of converters in the output path
   int rest_frames = 4800;   ///< between steps, and how long an answer may take
 };
 
-/// What one step met.
+/// Response to one step.
 struct StepAnswer {
-  std::int64_t frames = 0;  ///< from the step to the first changed sample of the answer
+  std::int64_t frames = 0;  ///< frames from the step to the first changed sample of the answer
   bool answered = false;
-  bool disturbed = false;  ///< `frames` is worth nothing: blocks were left out meanwhile, or the
-                           ///< step before was not answered
+  bool disturbed = false;  ///< `frames` is invalid: blocks were left out meanwhile, or the step
+                           ///< before had no answer
 };
 
 /// Measures how many frames a step on an output needs to show on the input of the same number,
@@ -62,8 +62,8 @@ class StepMeter final : public rt::AudioProcessor {
   rt::Ring<StepAnswer> answers_{1U << 10U};
 };
 
-/// What many steps say. With ticks of R frames in between, answers take from 1 to R frames more
-/// than the round trip; without, all the same.
+/// Summary of many steps. With ticks of R frames in between, answers take from 1 to R frames more
+/// than the round trip; without, all take the same time.
 struct StepSummary {
   int answered = 0;
   int unanswered = 0;

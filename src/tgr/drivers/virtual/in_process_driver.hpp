@@ -15,7 +15,7 @@ namespace ergotic::tgr {
 /// A virtual device that lives in the driver and moves on by one tick per exchange.
 ///
 /// As on a real device, the forces of an exchange act from there to the next one, so the positions
-/// that this exchange reads do not know them yet. Same settings, file and forces: same bits.
+/// that this exchange reads do not contain them yet. Same settings, file and forces: same bits.
 class InProcessDriver final : public Driver {
  public:
   /// \throws as makeVirtualDriver

@@ -20,7 +20,7 @@ std::string listOf(const std::vector<int>& slices) {
   return list;
 }
 
-/// What is said of a slice that is wanted beyond its end stops; nothing if it is not.
+/// Describes a target of a slice beyond its end stops; empty if there is none.
 std::string beyondStops(const VirtualDriverConfig& config,
                         int slice,
                         const TargetGesture::Range& range) {

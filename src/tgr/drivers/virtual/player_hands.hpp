@@ -9,17 +9,17 @@
 
 namespace ergotic::tgr {
 
-/// When the moves of a source are due, by the clock of the device. A source (a mouse, a program)
-/// stamps them by a clock of its own, and they arrive with jitter. Of the last 32 arrivals the one
-/// with the shortest way tells how the clocks differ. A move is due so long after that as the move
-/// behind it usually took to arrive (15 of the last 16 did), 12 ms at most: then the hand knows
-/// where it goes next. Realtime: yes.
+/// Computes when the moves of a source are due, by the clock of the device. A source (a mouse, a
+/// program) stamps them by a clock of its own, and they arrive with jitter. Of the last 32
+/// arrivals, the one with the least delay gives the offset between the clocks. A move is due so
+/// long after that as the move behind it usually took to arrive (15 of the last 16 did), 12 ms at
+/// most: the hand then knows its next target. Realtime: yes.
 class MoveTiming {
  public:
   static constexpr double kMaxDelayS = 0.012;
 
-  /// \param stamp_s  of the source's clock. \param now_s  when the move arrived
-  /// \return when it is due, s, of the device's clock; not before it arrived
+  /// \param stamp_s  time by the source's clock. \param now_s  when the move arrived
+  /// \return due time, s, by the device's clock; not before the move arrived
   double dueAt(double stamp_s, double now_s) noexcept;
 
  private:
@@ -44,9 +44,9 @@ class MoveTiming {
 
 /// The hands that players move, one per slice, in place of the gesture's.
 ///
-/// A hand that takes hold begins where the slice is. Its target goes on straight lines from move to
-/// move (MoveTiming says when), at most `kMaxSpeed` fast; then it stands. One that lets go goes
-/// along with the slice, its pull fades within `kFadeS`, and the slice is free.
+/// A hand that attaches begins at the slice's position. Its target moves on straight lines from
+/// move to move (at the times of MoveTiming), at most `kMaxSpeed` fast; then it rests. A hand that
+/// lets go follows the slice, its pull fades within `kFadeS`, and the slice is free.
 ///
 /// Times are in s, of one clock that does not stop. Realtime: yes. Thread: who steps the device
 class PlayerHands {
@@ -54,15 +54,15 @@ class PlayerHands {
   static constexpr double kMaxSpeed = 2.0;  ///< m/s
   static constexpr double kFadeS = 0.02;
 
-  /// What the hand does at a slice over a step.
+  /// State of the hand at a slice over a step.
   struct Holding {
     HandTarget target;
-    double acceleration = 0.0;  ///< m/s^2, of the target on a glide, which the hand feeds forward
+    double acceleration = 0.0;  ///< m/s^2, acceleration of the target on a glide, fed forward
     HandGrip grip = HandGrip::kConfigured;
-    double strength = 1.0;  ///< 0...1, of spring and damper
+    double strength = 1.0;  ///< 0...1, scale of spring and damper
   };
 
-  /// Nobody has held anything yet.
+  /// Resets to the state in which no hand has held anything.
   void clear() noexcept { *this = PlayerHands(); }
 
   /// \pre move.isValid
@@ -77,13 +77,13 @@ class PlayerHands {
 
  private:
   enum class State : std::uint8_t { kNever, kTakesHold, kHolds, kLetsGo };
-  /// Where the target shall be when; on a glide it begins then to go there.
+  /// A target and the time at which it applies; a glide to it begins then.
   struct Knot {
     double time_s = 0.0;
     double target_m = 0.0;
     double glide_s = 0.0;
   };
-  /// A path of minimum jerk; before its beginning and after its end the target stands.
+  /// A path of minimum jerk; before its begin and after its end the target rests.
   struct Glide {
     double begin_s = 0.0;
     double length_s = 0.0;

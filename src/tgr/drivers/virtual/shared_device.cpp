@@ -60,7 +60,7 @@ SharedDevice* map(const File& file, const std::string& name) {
   return static_cast<SharedDevice*>(memory);
 }
 
-/// Does a living device hold this segment?
+/// Whether a living device holds this segment.
 bool isTaken(const std::string& name) {
   try {
     const SharedSegment segment = SharedSegment::attach(name);
@@ -82,8 +82,8 @@ ERGOTIC_REALTIME bool SharedMoves::push(std::uint32_t session, const HandMove& m
   return true;
 }
 
-/// What a driver of an earlier session left is passed over; what a later one wrote waits until the
-/// device has seen that its session began.
+/// Takes the next move of a session. Moves of an earlier session are skipped; those of a later one
+/// wait until the device has seen that its session began.
 ERGOTIC_REALTIME bool SharedMoves::pop(std::uint32_t session, HandMove& move) noexcept {
   const std::uint32_t written = written_.load(std::memory_order_acquire);
   std::uint32_t read = read_.load(std::memory_order_relaxed);

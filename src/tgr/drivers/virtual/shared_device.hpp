@@ -49,7 +49,7 @@ class SharedMoves {
   std::atomic<std::uint32_t> read_{0};
 };
 
-/// What a virtual device is, constant while it lives.
+/// Traits of a virtual device, constant while it lives.
 struct SharedTraits {
   std::int32_t slices = 0;
   bool is_raw = false;  ///< positions and forces are volts
@@ -58,7 +58,7 @@ struct SharedTraits {
   double damping = 0.0;  ///< the least of its slices, N s/m
 };
 
-/// What a virtual device and its driver share when they are two processes.
+/// Data that a virtual device and its driver share as two processes.
 struct SharedDevice {
   static constexpr std::uint32_t kMagic = 0x54475256U;
   static constexpr std::uint32_t kVersion = 3;
@@ -67,7 +67,7 @@ struct SharedDevice {
   std::uint32_t version = kVersion;
   std::uint64_t size = sizeof(SharedDevice);
   SharedTraits traits;
-  std::int64_t born_ns = 0;  ///< CLOCK_MONOTONIC; tells a device from the one before it
+  std::int64_t born_ns = 0;  ///< CLOCK_MONOTONIC; distinguishes a device from an earlier one
 
   // The device writes:
   alignas(64) std::atomic<std::int32_t> device_pid{0};  ///< 0: the device has gone
@@ -77,7 +77,7 @@ struct SharedDevice {
   // The driver writes:
   alignas(64) std::atomic<std::int32_t> driver_pid{0};  ///< 0: no driver, so no force
   std::atomic<std::uint32_t> session{0};                ///< counts the times a driver opened
-  std::atomic<std::uint64_t> exchanges{0};              ///< of this session: what the watchdog sees
+  std::atomic<std::uint64_t> exchanges{0};              ///< in this session, for the watchdog
   SharedFrame forces;                                   ///< N, or V
   SharedMoves moves;
 
@@ -88,7 +88,7 @@ static_assert(std::is_standard_layout_v<SharedDevice>);
 static_assert(std::atomic<double>::is_always_lock_free);
 static_assert(std::atomic<std::uint64_t>::is_always_lock_free);
 
-/// Is there a process of this id? Realtime: no
+/// Whether there is a process of this id. Realtime: no
 bool processLives(std::int32_t pid) noexcept;
 
 /// A mapped segment of POSIX shared memory that holds a SharedDevice. Realtime: no, but `->`.

@@ -20,18 +20,18 @@ class SharedMemoryDriver final : public Driver {
   SharedMemoryDriver(const SharedMemoryDriver&) = delete;
   SharedMemoryDriver& operator=(const SharedMemoryDriver&) = delete;
 
-  /// Also waits up to a second for the device to come up.
+  /// Opens the device, and waits up to a second for it to come up.
   /// \throws DeviceError if there is no device, another driver has it, or its slices differ
   void open(double tick_rate_hz) override;
   void close() noexcept override;
-  /// Finds a device that was started again under the same name.
+  /// Reconnects to a device that was started again under the same name.
   /// \throws DeviceError if there is none, or it is another one than was opened
   void reconnect() override;
   int slices() const noexcept override { return slices_; }
   std::uint32_t exchange(const double* forces, double* positions) noexcept override;
   void makeSafe() noexcept override;
   void rearm() noexcept override;
-  /// Worst case: a force waits for the device's next step, and the position is one step old.
+  /// Worst-case delay: a force waits for the device's next step, and the position is one step old.
   int extraDelayTicks() const noexcept override { return extra_delay_ticks_; }
   bool isRaw() const noexcept override { return is_raw_; }
   bool canHurt() const noexcept override { return false; }

@@ -12,31 +12,31 @@
 
 namespace ergotic::tgr {
 
-/// All slices of a virtual device, stepped together. One thread, whoever steps it.
+/// All slices of a virtual device, stepped together. Thread: one.
 /// Realtime: yes, all but the constructor and `start`.
 class SliceBank {
  public:
-  /// Of the settings it reads all but those of delay and shared memory.
+  /// Reads all settings but those of delay and shared memory.
   /// \throws TextError from the gesture file, Exception if a setting is outside its range
   explicit SliceBank(const VirtualDriverConfig& config);
 
-  /// Back to rest at 0, time 0, first noise sample; no player holds anything.
+  /// Returns to rest at 0, time 0, first noise sample; no player holds anything.
   /// \param step_s        time that `step` moves on. \throws Exception if it is outside its range
-  /// \param tick_rate_hz  of a gesture of positions that has no rate of its own
+  /// \param tick_rate_hz  tick rate of a gesture of positions that has no rate of its own
   void start(double step_s, double tick_rate_hz);
 
-  /// How long the gesture has been played, s.
+  /// Time for which the gesture has been played, s.
   double gestureTime() const noexcept {
     return static_cast<double>(steps_ - gesture_begins_) * step_s_;
   }
 
-  /// The gesture begins anew with the next step, and has all slices again.
+  /// Restarts the gesture with the next step; it controls all slices again.
   void restartGesture() noexcept;
 
   /// A player's hand takes the slice from the gesture. \return false if the move is not valid
   bool take(const HandMove& move) noexcept;
 
-  /// What is asked of an actuator that gets `force`, N, or volts if `isRaw`; saturated.
+  /// Saturated force request to an actuator that gets `force`, N, or volts if `isRaw`.
   double newtons(int slice, double force) const noexcept;
 
   /// \param forces  [slices] N, held over the step

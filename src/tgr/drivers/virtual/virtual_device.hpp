@@ -16,29 +16,29 @@ namespace ergotic::tgr {
 struct VirtualDeviceConfig {
   std::string shared_memory;  ///< name of the segment
   VirtualDriverConfig bank;   ///< its slices; delay and shared memory are not those of a process
-  double rate_hz = 8000.0;    ///< of the mechanics, 100...50000
+  double rate_hz = 8000.0;    ///< step rate of the mechanics, 100...50000
   double watchdog_s = 0.010;  ///< longest time between exchanges, 0.001...10
 };
 
-/// A virtual device that outlives its driver: mechanics on a clock of its own, met through shared
-/// memory, with a watchdog. Force needs a driver that is open, armed, and exchanging: when it was
-/// not heard of for `watchdog_s`, there is none until it exchanges again and re-arms. The gesture
-/// starts anew with every driver that opens.
+/// A virtual device that outlives its driver: mechanics on a clock of its own, accessed through
+/// shared memory, with a watchdog. Force needs a driver that is open, armed, and exchanging: after
+/// `watchdog_s` without an exchange there is none until the driver exchanges again and re-arms. The
+/// gesture starts anew with every driver that opens.
 class VirtualDevice {
  public:
   /// \throws DeviceError from the segment; TextError and Exception as SliceBank
   explicit VirtualDevice(const VirtualDeviceConfig& config);
 
-  /// One step of the mechanics, which `now_ns` is the time of. Realtime: yes. Thread: one
+  /// Runs one step of the mechanics, at the time `now_ns`. Realtime: yes. Thread: one
   void step(std::int64_t now_ns) noexcept;
 
   /// Steps at absolute times until `stop`. After a gap of more than `kMaxBehindNs` the steps that
-  /// were missed are dropped. Realtime: yes, but the sleep. Thread: the one that steps
+  /// were missed are dropped. Realtime: yes, but the sleep. Thread: as `step`
   void run(const std::atomic<bool>& stop) noexcept;
 
   /// \return false if there is no record. Thread: one, any
   bool pollForce(ForceRecord& record) noexcept { return records_.pop(record); }
-  /// Records that found their ring full.
+  /// Number of records that found their ring full.
   std::int64_t droppedRecords() const noexcept { return dropped_records_; }
 
   static constexpr std::int64_t kMaxBehindNs = 50'000'000;

@@ -11,7 +11,7 @@
 namespace ergotic::tgr {
 namespace {
 
-/// What is left of a drive after dry friction took its share.
+/// Driving force minus dry friction, 0 if friction is larger.
 double afterFriction(double drive, double dry) noexcept {
   return std::copysign(std::max(std::abs(drive) - dry, 0.0), drive);
 }

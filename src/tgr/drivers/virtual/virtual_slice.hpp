@@ -12,24 +12,24 @@
 
 namespace ergotic::tgr {
 
-/// Where the hand wants to be at the start of a step, and how fast that moves.
+/// Target of the hand at the start of a step, and its velocity.
 struct HandTarget {
   double position = 0.0;  ///< m
   double velocity = 0.0;  ///< m/s
-  double push = 0.0;      ///< N, that it gives besides, as it knows what the way asks for
+  double push = 0.0;      ///< N, feedforward force in addition, for the known path
 };
 
-/// The spring and damper of a hand, N/m and N s/m, and the most that both give together, N.
+/// Spring and damper of a hand, N/m and N s/m, and the largest force of both together, N.
 struct HandHold {
   double stiffness = 0.0;
   double damping = 0.0;
   double max_force = std::numeric_limits<double>::infinity();
 };
 
-/// What a grip is at a slice: critically damped, or nearly so, with all that moves.
+/// Spring and damper of a grip at a slice: critically damped, or nearly so, with all that moves.
 HandHold holdOf(HandGrip grip, const VirtualSliceConfig& slice) noexcept;
 
-/// The force an actuator gives when `force` is asked of it, N; not a number counts as zero.
+/// Force of an actuator when `force` is requested, N; not a number counts as zero.
 double saturated(double force, double limit) noexcept;
 
 /// Mechanics of one virtual slice and its hand, from rest at x = 0.
@@ -56,10 +56,10 @@ class VirtualSlice {
   /// Moves on by one step with the force held. \param force  asked for, N, positive along x
   void step(double force, const HandTarget& target) noexcept;
 
-  /// How the hand holds it from now on; at first as configured.
+  /// Changes spring and damper of the hand from now on; at first they are as configured.
   void hold(const HandHold& hold) noexcept;
 
-  /// What the sensor says now, m: with noise, quantised. Every call is a new sample.
+  /// Sensor value, m: with noise, quantised. Every call is a new sample.
   double read() noexcept;
 
   double position() const noexcept { return x_; }  ///< m, true
@@ -68,7 +68,7 @@ class VirtualSlice {
   static constexpr double kMaxSubstepS = 50e-6;
 
  private:
-  /// Equal substeps of a part of a step over which the same force is asked of the actuator.
+  /// Equal substeps of the part of a step in which the actuator has one requested force.
   struct Part {
     int substeps = 0;
     double substep_s = 0.0;          // h

@@ -9,14 +9,16 @@
 namespace ergotic::panel {
 namespace {
 
-/// A key below a string of 30 modules along y.
+/// A key that throws a hammer at a string of 30 modules along y.
 struct KeyAndString : StructureMaker {
   std::uint32_t key = 0;
   KeyAndString() {
     structure.law_names = {"contact"};
     string(30, 0.0F);
     key = module(ModelStructure::SLICE, -0.01F, 0.0F, 0.0F);
-    link(key, 10);
+    const std::uint32_t hammer = module(ModelStructure::MASS, -0.01F, 0.0F, 0.0F);
+    link(key, hammer);
+    link(hammer, 10);
   }
 };
 
@@ -24,7 +26,7 @@ struct KeyAndString : StructureMaker {
 TEST(ModelBodiesTest, TheAxisOfAKeyGoesThroughItsBlock) {
   const KeyAndString scene;
   const std::vector<DrawnBody> bodies = bodiesOf(scene.structure, shapeOf(scene.structure), 1.0F);
-  ASSERT_EQ(bodies.size(), 1U);
+  ASSERT_EQ(bodies.size(), 2U);
   EXPECT_EQ(bodies[0].module, scene.key);
   const auto ends = axisOf(bodies[0]);
   const Eigen::Vector3f axis = ends[1] - ends[0];

@@ -174,6 +174,10 @@ class Maker : SmallSceneDice {
         link("pluck", m.name, otherThan(m, 0.7),
              ", stiffness: " + full(m, decades(1e-3, 3.0)) + ", width: " + number(width) +
                  damping(m, 0.1) + scheme({"explicit", "energy_stable", "auto"}));
+      } else if (chance(0.5)) {
+        link("one_way_pluck", m.name, otherThan(m, 0.7),
+             ", stiffness: " + full(m, decades(1e-3, 3.0)) + ", width: " + number(width) +
+                 damping(m, 0.1) + scheme({"explicit", "energy_stable", "auto"}));
       } else {
         link("conditional", m.name, otherThan(m, 0.7),
              ", stiffness: " + full(m, decades(1e-3, 3.0)) + ", engage: " + number(width) +

@@ -90,7 +90,7 @@ generators:
         physics::settle(scene::readYaml(head + more + "}\n", "free.yaml"), kRates);
     const auto warns = std::any_of(
         settled.scene.warnings.begin(), settled.scene.warnings.end(), [](const auto& warning) {
-          return warning.find("string 's' cannot be tuned together") != std::string::npos;
+          return warning.find("string 's' cannot be tuned to ") != std::string::npos;
         });
     EXPECT_EQ(warns, !more.empty());
     return settled.scene.lias.front().stiffness.factor;

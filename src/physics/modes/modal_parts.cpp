@@ -341,8 +341,8 @@ PartStart startOf(const Network& network,
   const StepUnits units = unitsOf(scene, rates, section);
   const auto size = static_cast<Eigen::Index>(part.mats.size());
   PartStart start;
-  for (Eigen::VectorXd* v :
-       {&start.mass, &start.x, &start.velocity, &start.constant, &start.of_springs}) {
+  for (Eigen::VectorXd* v : {&start.mass, &start.x, &start.velocity, &start.constant,
+                             &start.first_force, &start.of_springs}) {
     v->setZero(size);
   }
   for (const int m : part.mats) {
@@ -351,6 +351,7 @@ PartStart startOf(const Network& network,
     start.mass[i] = network.nodes[at(m)].mass.now;
     start.x[i] = displacementOf(mat);
     start.velocity[i] = mat.push->velocity.x();
+    start.first_force[i] = mat.push->first_force.x();
     const double pull = oscillatorOf(scene, mat, units).pull / (units.step * units.step);
     // The spring of a cell ends at 0, wherever the cell rests.
     start.constant[i] =

@@ -67,11 +67,12 @@ ModalMatrix mixtureOf(const PartMatrices& matrices);
 
 /// Forces and motion at the start, in the order of LinearPart::mats.
 struct PartStart {
-  Eigen::VectorXd mass;        ///< kg
-  Eigen::VectorXd x;           ///< m, from rest
-  Eigen::VectorXd velocity;    ///< m/time_unit
-  Eigen::VectorXd constant;    ///< sum of all forces where x = 0 and nothing moves
-  Eigen::VectorXd of_springs;  ///< forces of the links of the part at the start
+  Eigen::VectorXd mass;         ///< kg
+  Eigen::VectorXd x;            ///< m, from rest
+  Eigen::VectorXd velocity;     ///< m/time_unit
+  Eigen::VectorXd constant;     ///< sum of all forces where x = 0 and nothing moves
+  Eigen::VectorXd first_force;  ///< of modules, in the first step only
+  Eigen::VectorXd of_springs;   ///< forces of the links of the part at the start
 };
 PartStart startOf(const Network& network,
                   const Rates& rates,

@@ -217,7 +217,7 @@ class Planner {
     to.x = project(start.x.cwiseProduct(root));
     to.d = step * project(start.velocity.cwiseProduct(root));
     to.constant = project(start.constant.cwiseQuotient(root));
-    to.first_force = project(start.of_springs.cwiseQuotient(root)) * -1.0;
+    to.first_force = project((start.first_force - start.of_springs).cwiseQuotient(root));
     std::vector<const ModalTouch*> touches;
     for (const ModalTouch& touch : plan_.touches) {
       if (touch.part == p) {

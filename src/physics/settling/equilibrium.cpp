@@ -106,6 +106,8 @@ class Balance {
     fail();
   }
   const std::vector<int>& mats() const { return mats_; }
+  /// Force of all links on a module at a position in balance.
+  double linkForce(std::size_t row, double x) const { return ground_[row] * x - constant_[row]; }
 
  private:
   void addModule(const scene::Mat& mat, const Rates& rates) {
@@ -124,7 +126,8 @@ class Balance {
   void addLinks(const Rates& rates) {
     for (const scene::Lia& lia : scene_.lias) {
       const scene::Law& law = scene::lawOf(lia.type);
-      if (lia.bend >= 0 || law.kind == scene::Law::Kind::kFriction || law.is_held) {
+      const bool snaps = law.is_held && law.tables != scene::Law::Tables::kParts;
+      if (lia.bend >= 0 || law.kind == scene::Law::Kind::kFriction || snaps) {
         continue;
       }
       Pull pull;
@@ -304,6 +307,8 @@ void startInEquilibrium(scene::Scene& scene, const Rates& rates, std::vector<std
     double& most = farthest[at(mat.section)];
     most = std::max(most, std::abs(x[static_cast<Eigen::Index>(i)] - mat.position.x()));
     mat.position.x() = x[static_cast<Eigen::Index>(i)];
+    // Links act from the second step on.
+    mat.push.edit().first_force.x() = balance.linkForce(i, mat.position.x());
   }
   for (std::size_t s = 0; s < scene.sections.size(); ++s) {
     const scene::Section& section = scene.sections[s];

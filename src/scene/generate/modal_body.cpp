@@ -120,7 +120,9 @@ class NetworkVibrations : public Vibrations {
     for (int place = 0; place < rows * columns; ++place) {
       const Eigen::Vector2d there = placeAt(place / columns, place % columns);
       for (int j = 0; j < modes; ++j) {
-        moving[at(place)] |= shape(j, there.x(), there.y()) != 0.0 ? 1 : 0;
+        if (shape(j, there.x(), there.y()) != 0.0) {
+          moving[at(place)] = 1;
+        }
       }
     }
     const auto moves = [&](int row, int column) {

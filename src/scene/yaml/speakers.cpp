@@ -96,20 +96,20 @@ std::string keyOf(const Node& node) {
 
 const Speakers& Layouts::read(const YamlMap& map, const std::string& key) {
   const Node& node = map.at(key);
-  const std::string layout = keyOf(node);
-  const auto known = known_.find(layout);
+  const std::string text = keyOf(node);
+  const auto known = known_.find(text);
   if (known != known_.end()) {
     return known->second;
   }
   if (node.isList()) {
-    return known_.emplace(layout, speakersIn(builder_, node, "'speakers' of " + map.what()))
+    return known_.emplace(text, speakersIn(builder_, node, "'speakers' of " + map.what()))
         .first->second;
   }
   std::vector<std::string> words;
   for (const Layout& layout : layouts()) {
     words.emplace_back(layout.name);
   }
-  return known_.emplace(layout, speakersOf(layouts()[map.choice(key, words)])).first->second;
+  return known_.emplace(text, speakersOf(layouts()[map.choice(key, words)])).first->second;
 }
 
 }  // namespace ergotic::scene

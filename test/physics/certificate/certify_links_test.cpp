@@ -42,7 +42,7 @@ TEST(CertifyLinksTest, LinesThatTurnAreProvenOnlyWithoutRestLengthOrGuarded) {
   EXPECT_EQ(verdict(0.0, scene::Scheme::kExplicit).verdict, Verdict::kPassive);
   EXPECT_EQ(verdict(0.1, scene::Scheme::kExplicit).verdict, Verdict::kUnproven);
   EXPECT_THAT(verdict(0.1, scene::Scheme::kExplicit).findings,
-              Contains(HasSubstr("a line that turns")));
+              Contains(HasSubstr("where its direction turns")));
   EXPECT_EQ(verdict(0.1, scene::Scheme::kGuarded).verdict, Verdict::kPassive);
 }
 

@@ -314,7 +314,7 @@ void addLimits(Cases& cases) {
   beyond("net in space", net(9, 0.53), Closed::kNo);
   const std::string thrown = "net in space thrown about by more than its meshes";
   cases.push_back(
-      {thrown, "explicit", false, "unproven", "a line that turns", [=](Precision precision) {
+      {thrown, "explicit", false, "unproven", "where its direction turns", [=](Precision precision) {
          return play(net(9, 0.4, 0.9), {kRate, 1}, 20000, precision, Closed::kNo);
        }});
   cases.push_back({thrown, "energy_stable", true, "passive", "", [=](Precision precision) {

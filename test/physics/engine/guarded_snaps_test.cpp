@@ -153,7 +153,9 @@ TEST(GuardedSnapsTest, EnergyOnlyFallsByAOneWayPluck) {
         ASSERT_LE(now, last + 1e-12 * start) << n;
         last = now;
       }
-      EXPECT_GT(test::heatOf(test::guardsOf(player)), 0.0) << kappa;
+      if (kappa < 0.01) {  // stiffer ones throw it back
+        EXPECT_GT(test::heatOf(test::guardsOf(player)), 0.0) << kappa;
+      }
     }
   }
 }

@@ -61,6 +61,9 @@ std::vector<Where> elements(const YAML::Node& schema) {
       if (type == "string") {  // of two kinds
         all.back().around.push_back({head + ", pitch: 100, ", "}]"});
       }
+      if (type == "plate") {
+        all.back().around.push_back({head + ", shape: round, as: modes, ", "}]"});
+      }
     } else {
       all.push_back({name, {{part + "s: {one: {type: " + type + ", ", "}}"}}});
     }

@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "scene/laws/contact.hpp"
 #include "scene/laws/families.hpp"
 
 namespace ergotic::scene {
@@ -56,22 +55,7 @@ constexpr LiaField kFields[] = {stiffnessField(), dampingField(), widthField("en
 
 }  // namespace
 
-constexpr Law kConditionalLaw = {
-    {"conditional spring-damper", kWords, kFields, Law::Tables::kNone, true},
-    Law::Kind::kElastic,
-    explicitForm<Conditional>(1),
-    snappingForms<ConditionalCurve>,
-    guardable,
-    false,   // has_linear_part
-    true,    // switches
-    true,    // is_held
-    always,  // canGive
-    never,   // givesForEver
-    slopesFromZero,
-    nullptr,  // growth
-    nullptr,  // friction
-    never,    // onlyBrakes
-    noStiffness,
-};
+constexpr Law kConditionalLaw = snappingLaw<Conditional, ConditionalCurve>(
+    {"conditional spring-damper", kWords, kFields, Law::Tables::kNone, true});
 
 }  // namespace ergotic::scene

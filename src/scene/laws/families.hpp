@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "scene/laws/contact.hpp"
 #include "scene/laws/law.hpp"
 
 /// Laws of a family share all entries but those that are asked for here. Explicit forms and
@@ -94,6 +95,23 @@ constexpr Law pluckLaw(LawText text, decltype(Law::slopes) slopes) {
           always,  // canGive
           never,   // givesForEver
           slopes,
+          nullptr,  // growth
+          nullptr,  // friction
+          never,    // onlyBrakes
+          noStiffness};
+}
+
+/// A spring that comes and goes, and remembers whether it holds.
+template <class Explicit, template <class> class Curve>
+constexpr Law snappingLaw(LawText text) {
+  return {text,           Law::Kind::kElastic, explicitForm<Explicit>(1), snappingForms<Curve>,
+          guardable,
+          false,   // has_linear_part
+          true,    // switches
+          true,    // is_held
+          always,  // canGive
+          never,   // givesForEver
+          slopesFromZero,
           nullptr,  // growth
           nullptr,  // friction
           never,    // onlyBrakes

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <limits>
 
-#include "scene/laws/contact.hpp"
 #include "scene/laws/families.hpp"
 
 namespace ergotic::scene {
@@ -62,22 +61,7 @@ constexpr LiaField kFields[] = {stiffnessField(), dampingField(), widthField("wi
 
 }  // namespace
 
-constexpr Law kOneWayPluckLaw = {
-    {"one-way pluck", kWords, kFields, Law::Tables::kNone, false},
-    Law::Kind::kElastic,
-    explicitForm<OneWayPluck>(1),
-    snappingForms<OneWayPluckCurve>,
-    guardable,
-    false,   // has_linear_part
-    true,    // switches
-    true,    // is_held
-    always,  // canGive
-    never,   // givesForEver
-    slopesFromZero,
-    nullptr,  // growth
-    nullptr,  // friction
-    never,    // onlyBrakes
-    noStiffness,
-};
+constexpr Law kOneWayPluckLaw = snappingLaw<OneWayPluck, OneWayPluckCurve>(
+    {"one-way pluck", kWords, kFields, Law::Tables::kNone, false});
 
 }  // namespace ergotic::scene

@@ -313,10 +313,10 @@ void addLimits(Cases& cases) {
   beyond("damping", string(30, 0.3, 0.356), Closed::kYes);
   beyond("net in space", net(9, 0.53), Closed::kNo);
   const std::string thrown = "net in space thrown about by more than its meshes";
-  cases.push_back(
-      {thrown, "explicit", false, "unproven", "where its direction turns", [=](Precision precision) {
-         return play(net(9, 0.4, 0.9), {kRate, 1}, 20000, precision, Closed::kNo);
-       }});
+  cases.push_back({thrown, "explicit", false, "unproven", "where its direction turns",
+                   [=](Precision precision) {
+                     return play(net(9, 0.4, 0.9), {kRate, 1}, 20000, precision, Closed::kNo);
+                   }});
   cases.push_back({thrown, "energy_stable", true, "passive", "", [=](Precision precision) {
                      return play(net(9, 0.4, 0.9, Scheme::kGuarded), {kRate, 1}, 20000, precision);
                    }});

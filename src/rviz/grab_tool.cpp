@@ -452,6 +452,9 @@ void GrabTool::lookUnder(const rviz::ViewportMouseEvent& event) {
   }
   const std::int64_t begun_ns = wallNs();
   if (moves && begun_ns < look_again_ns_) {
+    if (hovered_ && Screen(event, model_).distanceTo(*hovered_) > kNearPixels) {
+      hovered_.reset();
+    }
     return;
   }
   hovered_ = under(event);

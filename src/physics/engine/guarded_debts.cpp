@@ -110,6 +110,18 @@ void GuardedLinks<Real>::settleDebts(const NearLinks<Real>& near,
 
 template std::size_t GuardedLinks<float>::rootOf(std::size_t) noexcept;
 template std::size_t GuardedLinks<double>::rootOf(std::size_t) noexcept;
+template void GuardedLinks<float>::joinThoseThatShare(const NearLinks<float>&,
+                                                      const GuardedView<float>&) noexcept;
+template void GuardedLinks<double>::joinThoseThatShare(const NearLinks<double>&,
+                                                       const GuardedView<double>&) noexcept;
+template void GuardedLinks<float>::weaken(const Link&,
+                                          float,
+                                          Motion&,
+                                          GuardedState<float>&) noexcept;
+template void GuardedLinks<double>::weaken(const Link&,
+                                           double,
+                                           Motion&,
+                                           GuardedState<double>&) noexcept;
 template void GuardedLinks<float>::settleDebts(const NearLinks<float>&,
                                                const GuardedView<float>&,
                                                GuardedState<float>*) noexcept;

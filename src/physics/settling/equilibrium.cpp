@@ -23,6 +23,9 @@ namespace {
 
 constexpr int kMostSteps = 400;
 constexpr double kBalanced = 1e-11;     // of the largest force on a module
+constexpr double kNothing = 1e-18;      // of that where it is written
+constexpr double kRoundedOff = 1e-15;     // of what differs in a force
+constexpr double kHeld = 1e-3;          // of the largest force: more is not held at all
 constexpr double kLeastPivot = 1e-12;   // of the largest: what is less may move freely
 constexpr double kFirstReachM = 0.01;   // of one step; doubled as long as it is too short
 constexpr double kMostReachM = 1000.0;  // from where a module is written: beyond it falls for ever
@@ -79,6 +82,7 @@ class Balance {
     double reach = kFirstReachM;
     double damping = 0.0;
     assemble(x);
+    at_first_ = largest_;
     for (int step = 0; step < kMostSteps; ++step) {
       if (isBalanced()) {
         return x;
@@ -136,6 +140,7 @@ class Balance {
         continue;
       }
       requireScalar(lia);
+      requireNoStretch(lia);
       pull.law = scene::GuardedLaw<double>::make(scene_, lia, StepUnits(scene_, rates, 1));
       pull.at_0 += pull.law->isContact() ? pull.law->length : -pull.law->length;
       pulls_.push_back(std::move(pull));
@@ -150,6 +155,17 @@ class Balance {
                                  "' joins what starts in equilibrium to section '" + section.name +
                                  "', allowed: scalar sections");
       }
+    }
+  }
+
+  /// Its springs stiffen by the mean of all of them.
+  void requireNoStretch(const scene::Lia& lia) const {
+    if (lia.tank >= 0 && scene_.tanks[at(lia.tank)].is_mean) {
+      const scene::Tank& tank = scene_.tanks[at(lia.tank)];
+      throw scene::errorAt(scene_, tank.place,
+                           "stretch '" + std::string(tank.name) +
+                               "' stiffens what starts in equilibrium, allowed: in sections with "
+                               "start: as_written");
     }
   }
 
@@ -213,6 +229,7 @@ class Balance {
   void assemble(const Eigen::VectorXd& x) {
     const auto rows = static_cast<int>(x.size());
     forces_ = Eigen::VectorXd::Zero(rows);
+    rounding_ = 0.0;
     largest_ = 0.0;
     energy_ = 0.0;
     std::vector<Eigen::Triplet<double>> entries;
@@ -233,6 +250,11 @@ class Balance {
       }
       const Load load = loadOf(pull, p);
       energy_ += load.energy;
+      double reached = std::abs(pull.at_0);
+      for (const Share& end : pull.ends) {
+        reached += std::abs(end.weight * x[end.node]);
+      }
+      rounding_ = std::max(rounding_, kRoundedOff * load.slope * reached);
       for (const Share& end : pull.ends) {
         push(end.node, -end.weight * load.force);
         for (const Share& other : pull.ends) {
@@ -244,7 +266,10 @@ class Balance {
     stiffness_.setFromTriplets(entries.begin(), entries.end());
   }
 
-  bool isBalanced() const { return forces_.lpNorm<Eigen::Infinity>() <= kBalanced * largest_; }
+  bool isBalanced() const {
+    return forces_.lpNorm<Eigen::Infinity>() <=
+           std::max({kBalanced * largest_, kNothing * at_first_, rounding_});
+  }
 
   /// Newton's step; where nothing holds, along the forces.
   Eigen::VectorXd solved(double damping) const {
@@ -269,6 +294,14 @@ class Balance {
     forces_.cwiseAbs().maxCoeff(&worst);
     const scene::Mat& mat = scene_.mats[at(mats_[static_cast<std::size_t>(worst)])];
     const scene::Section& section = scene_.sectionOf(mat);
+    if (std::abs(forces_[worst]) < kHeld * largest_) {
+      throw scene::errorAt(scene_, section.place,
+                           "section '" + section.name +
+                               "' has an equilibrium that is not found: module '" +
+                               std::string(mat.name) + "' is still pushed with " +
+                               shortly(std::abs(forces_[worst])) +
+                               " N, allowed: less stiff contacts, or start: as_written");
+    }
     throw scene::errorAt(
         scene_, section.place,
         "section '" + section.name + "' has no equilibrium to start in: nothing holds module '" +
@@ -289,7 +322,9 @@ class Balance {
   Eigen::VectorXd forces_;
   Eigen::SparseMatrix<double> stiffness_;
   double energy_ = 0.0;
-  double largest_ = 0.0;  // of all forces one by one
+  double rounding_ = 0.0;  // of the forces
+  double largest_ = 0.0;   // of all forces one by one
+  double at_first_ = 0.0;  // the same where they are written
 };
 
 }  // namespace

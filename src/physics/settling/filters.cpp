@@ -192,6 +192,7 @@ class Inserter {
     own.divisor = fast.divisor;
     own.geometry = slow.geometry;
     own.pose = slow.pose;
+    own.starts_in_balance = slow.geometry == scene::Geometry::kScalar && fast.starts_in_balance;
     own.place = place_;
     scene_.sections.push_back(std::move(own));
     return static_cast<int>(scene_.sections.size()) - 1;

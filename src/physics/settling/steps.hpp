@@ -127,9 +127,10 @@ void splitSprings(scene::Scene& scene);
 
 /// Moves the masses and cells of sections that are to start in equilibrium to where springs,
 /// contacts, gravity and constant forces balance, to 1e-11 of the largest force on a module, with
-/// hands at 0 and agents as they begin. What plucks or snaps in is taken as open, and the common
-/// tension of stretches as 0. Newton's method on the energy; no change at all of other sections.
-/// \throws TextError if nothing holds a module, or if one is linked to a plane or to space
+/// hands at 0 and agents as they begin. What plucks or snaps in is taken as open. Newton's
+/// method on the energy; other sections stay as they are.
+/// \throws TextError if nothing holds a module, if one is linked to a plane or to space, or if a
+/// stretch stiffens it
 void startInEquilibrium(scene::Scene& scene, const Rates& rates, std::vector<std::string>& notes);
 
 /// Warns of what surprises who plays a scene: of every pluck that already holds what it plucks when

@@ -52,7 +52,8 @@ double t60At(const std::vector<double>& hz, const BodyWish& wish, double frequen
   }
   const double from = hz[at(low - 1)];
   const double share = (frequency_hz - from) / (hz[at(high - 1)] - from);
-  return 1.0 / ((1.0 - share) / low_s + share / high_s);
+  const double rate = (1.0 - share) / low_s + share / high_s;
+  return rate > 0.0 ? 1.0 / rate : std::max(low_s, high_s);
 }
 
 /// The highest partial that a decay is asked for.
@@ -174,6 +175,7 @@ class Modes {
     spec_.place = place_;
     spec_.at = body_.begin();
     setFrequencies();
+    checkDecays();
     for (const BodyPlace& each : form_.places) {
       spec_.places.push_back(each.name);
       spec_.seen_at.push_back(body_.rest(each.along, each.across));
@@ -199,6 +201,21 @@ class Modes {
     for (int j = 0; j < body_.count(); ++j) {
       hz_.push_back(wish_.is_string ? wish_.pitch_hz * stretched(j + 1) / stretched(wish_.pitch_of)
                                     : wish_.pitch_hz * std::sqrt(body_.stiffness(j) / unit));
+    }
+  }
+  /// Between two of one frequency nothing says how the decay changes.
+  void checkDecays() const {
+    constexpr double kApart = 1e-6;
+    if (wish_.t60.size() < 2) {
+      return;
+    }
+    const int low = wish_.t60.front().first;
+    const int high = wish_.t60.back().first;
+    if (!(hz_[at(high - 1)] > (1.0 + kApart) * hz_[at(low - 1)])) {
+      builder_.fail(place_, "'t60' of body " + quoted(spec_.name) + " names partials " +
+                                std::to_string(low) + " and " + std::to_string(high) +
+                                ", which both sound at " + numberText(hz_[at(low - 1)]) +
+                                " Hz, allowed: partials of two frequencies");
     }
   }
   double stretched(int partial) const {

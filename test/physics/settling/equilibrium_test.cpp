@@ -123,6 +123,40 @@ TEST(EquilibriumTest, HandsAreWhereTheyBegin) {
   EXPECT_NEAR(placeOf(held, "m"), 2e-3 - 0.5e-3 - 0.1 * kG / 300.0, 1e-12);
 }
 
+/// Where all forces vanish at rest, or differ by rounding alone.
+TEST(EquilibriumTest, RestWithoutForceIsFoundToo) {
+  const auto at_rest = [](const std::string& parts) {
+    return settle(
+        scene::readYaml("ergotic: 1\nsections: {a: {rate: audio, start: equilibrium}}\n" + parts,
+                        "rest.yaml"),
+        kRates);
+  };
+  const Settled drawn = at_rest(
+      "generators: [{type: string, name: s, section: a, masses: 30, mass: 1e-3, stiffness: 1000, "
+      "to: [1, 0], pluck: {at: 0.3, height: 1 mm}}]\n");
+  EXPECT_NEAR(placeOf(drawn, "s.9"), 0.0, 1e-13);
+  const Settled pressed = at_rest(
+      "mats: {g: {type: ground, section: a}, b: {type: mass, mass: 0.1, x: -0.3 mm, section: a}}\n"
+      "lias: {k: {type: power_contact, between: [g, b], stiffness: 1e6, exponent: 1.5}}\n");
+  EXPECT_NEAR(placeOf(pressed, "b"), 0.0, 1e-9);
+  const Settled stiff = settled(
+      "mats: {g: {type: ground, x: 30 mm, section: a}, b: {type: mass, mass: 5e-3, x: 30 mm, "
+      "section: a}}\nlias: {k: {type: contact, between: [g, b], stiffness: 1e7}}\n");
+  EXPECT_NEAR(placeOf(stiff, "b"), 0.03 - 5e-3 * kG / 1e7, 1e-14);
+}
+
+/// Beside a section with gravity a chaplet has a section of its own, which starts as that does.
+TEST(EquilibriumTest, ChapletsStartInItToo) {
+  const Settled held = settled(
+      "mats: {h: {type: slice, coupling: chaplet, section: k, rest: 5 mm}, "
+      "g: {type: ground, section: a}, m: {type: mass, mass: 0.1, section: a}}\n"
+      "lias: {k: {type: spring, between: [m, g], stiffness: 1000},\n"
+      "  l: {type: spring, between: [m, h], stiffness: 500}}\n"
+      "ports: {p: {mat: h, slice: 0}}\n"
+      "outputs: {o: {at: m, quantity: position, channel: 1}}\n");
+  EXPECT_LT(farthestMotion(held.scene), 1e-9);
+}
+
 TEST(EquilibriumTest, SaysWhatNothingHolds) {
   const std::string falls = "mats: {m: {type: mass, mass: 1, section: a}}\n";
   EXPECT_THAT(complaintOf<TextError>([&] { settled(falls); }),

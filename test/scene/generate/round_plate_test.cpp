@@ -129,6 +129,8 @@ TEST(RoundPlateTest, SaysWhatItCannotBe) {
               HasSubstr("place 'p' of round plate 'disc' is 1.13"));
   EXPECT_THAT(refusal("shape: round, as: modes, edges: clamped, poisson: 0.2"),
               HasSubstr("it changes nothing, allowed with edges: free or supported"));
+  EXPECT_THAT(refusal("shape: round, as: modes, partials: 6, t60: [[1, 4 s], [2, 2 s]]"),
+              HasSubstr("names partials 1 and 2, which both sound at 220 Hz"));
   EXPECT_THAT(refusal("cells: 8, radius: 0.1"), HasSubstr("'radius'"));
 }
 

@@ -24,7 +24,7 @@ namespace {
 constexpr int kMostSteps = 400;
 constexpr double kBalanced = 1e-11;     // of the largest force on a module
 constexpr double kNothing = 1e-18;      // of that where it is written
-constexpr double kRoundedOff = 1e-15;     // of what differs in a force
+constexpr double kRoundedOff = 1e-15;   // of what differs in a force
 constexpr double kHeld = 1e-3;          // of the largest force: more is not held at all
 constexpr double kLeastPivot = 1e-12;   // of the largest: what is less may move freely
 constexpr double kFirstReachM = 0.01;   // of one step; doubled as long as it is too short

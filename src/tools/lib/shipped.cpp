@@ -16,9 +16,9 @@
 namespace ergotic::tools {
 namespace {
 
-/// Folders between lib/ergotic of an install space, or devel/lib/ergotic of the sources, and the
-/// models.
-constexpr int kMostFoldersUp = 3;
+/// Folders between the programs and what has the models: an install space with lib/ergotic, the
+/// sources with devel/lib/ergotic, or with a build in a folder such as build/asan before that.
+constexpr int kMostFoldersUp = 5;
 
 }  // namespace
 

@@ -145,6 +145,18 @@ TEST(EquilibriumTest, RestWithoutForceIsFoundToo) {
   EXPECT_NEAR(placeOf(stiff, "b"), 0.03 - 5e-3 * kG / 1e7, 1e-14);
 }
 
+/// Played by its modes it rests where its masses and springs do.
+TEST(EquilibriumTest, SectionsOfModesStartInItToo) {
+  const Settled sagging = settled(
+      "generators: [{type: string, name: s, section: a, masses: 39, mass: 1e-3, stiffness: 1000, "
+      "damping: 0.01, to: [1, 0]}]\n"
+      "outputs: {o: {at: s@0.5, quantity: position, channel: 1}}\n",
+      ", modes: all");
+  // m g j (N + 1 - j)/2K of a chain between fixed ends, in its middle.
+  EXPECT_NEAR(placeOf(sagging, "s.20"), -1e-3 * kG * 20.0 * 20.0 / 2000.0, 1e-12);
+  EXPECT_LT(farthestMotion(sagging.scene), 1e-12);
+}
+
 /// Beside a section with gravity a chaplet has a section of its own, which starts as that does.
 TEST(EquilibriumTest, ChapletsStartInItToo) {
   const Settled held = settled(

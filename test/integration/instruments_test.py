@@ -10,7 +10,6 @@ import json
 import os
 import pathlib
 import re
-import shutil
 import subprocess
 import sys
 import tempfile
@@ -103,7 +102,6 @@ class InstrumentsTest(unittest.TestCase):
         self.assertGreaterEqual(told, 11)
 
     def test_what_the_library_plucks_with_begins_out_of_reach(self):
-        shutil.copytree(MODELS / "lib", self.out.parent / "lib")
         for definition in ("plectrum", "quill"):
             scene = self.out.parent / f"{definition}.yaml"
             scene.write_text("ergotic: 1\ninclude: [lib/plectra.yaml, lib/strings.yaml]\n"

@@ -70,7 +70,6 @@ class RecipesTest(unittest.TestCase):
     def setUpClass(cls):
         cls.folder = pathlib.Path(tempfile.mkdtemp())
         cls.addClassCleanup(shutil.rmtree, cls.folder)
-        shutil.copytree(ROOT / "models/lib", cls.folder / "lib")
         cls.scenes = blocks("yaml")
         for name, text in cls.scenes.items():
             (cls.folder / f"{name}.yaml").write_text(text)

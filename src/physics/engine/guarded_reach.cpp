@@ -135,9 +135,9 @@ void GuardedReach::findWholeTaps(const scene::Scene& scene,
   }
 }
 
-bool GuardedReach::isOnPlace(const GuardedRef& ref) const noexcept {
+std::array<int, 2> GuardedReach::placesOf(const GuardedRef& ref) const noexcept {
   const LinkEnds& ends = layout_.runs[ref.run].ends[ref.link];
-  return place_of_slot_[at(behind(ends.a))] >= 0 || place_of_slot_[at(behind(ends.b))] >= 0;
+  return {place_of_slot_[at(behind(ends.a))], place_of_slot_[at(behind(ends.b))]};
 }
 
 std::vector<std::size_t> GuardedReach::tapsAt(const GuardedRef& ref) const {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <vector>
 
@@ -30,8 +31,12 @@ class GuardedReach {
   /// Realtime: then
   void find(const GuardedRef& ref, const double* places, Terms& to) const noexcept;
 
-  /// True if an end lies on a place, which may move.
-  bool isOnPlace(const GuardedRef& ref) const noexcept;
+  /// Places, which may move, that the ends lie on; -1: an end lies on none.
+  std::array<int, 2> placesOf(const GuardedRef& ref) const noexcept;
+  bool isOnPlace(const GuardedRef& ref) const noexcept {
+    const std::array<int, 2> places = placesOf(ref);
+    return places[0] >= 0 || places[1] >= 0;
+  }
   /// Taps among the ends that count as one module. Realtime: no
   std::vector<std::size_t> tapsAt(const GuardedRef& ref) const;
   /// Slots of all modules that a place can come to. Realtime: no

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "at.hpp"
 
@@ -49,14 +50,16 @@ void GuardedRuns<Real>::addLinks(const scene::Scene& scene,
                                  State<Real>& state) {
   const std::vector<double> somewhere(2 * layout_.places.size(), 0.0);
   std::vector<GuardedLink> links;
-  std::vector<std::size_t> moving;
+  std::vector<OnPlaces> on_places;
   std::vector<std::size_t> taps;
   std::vector<int> slow;
   GuardedReach::Terms terms;  // has room for those of any link then
   for (const GuardedRef& ref : members.links) {
     const LinkRun& run = layout_.runs[ref.run];
     if (reach_.isOnPlace(ref)) {
-      moving.push_back(links.size());
+      constexpr double kNowhere = std::numeric_limits<double>::quiet_NaN();
+      on_places.push_back(
+          {links.size(), reach_.placesOf(ref), {kNowhere, kNowhere, kNowhere, kNowhere}});
     }
     const std::vector<std::size_t> ends = reach_.tapsAt(ref);
     taps.insert(taps.end(), ends.begin(), ends.end());
@@ -76,8 +79,8 @@ void GuardedRuns<Real>::addLinks(const scene::Scene& scene,
   const std::size_t clearances_at =
       near.waiting() == 0 ? 0
                           : state.arena().template add<Real>(name + ".clearances", near.waiting());
-  links_.push_back({GuardedLinks<Real>(links, modules_), std::move(near), moving, taps,
-                    std::vector<unsigned char>(links.size(), 0), slow,
+  links_.push_back({GuardedLinks<Real>(links, modules_), std::move(near), std::move(on_places),
+                    taps, std::vector<unsigned char>(links.size(), 0), slow,
                     std::vector<unsigned char>(layout_.sections.size(), 0), states_at,
                     clearances_at, std::move(terms)});
 }
@@ -151,9 +154,18 @@ GuardedView<Real> GuardedRuns<Real>::viewOf(const Links& links,
 template <class Real>
 void GuardedRuns<Real>::followPlaces(std::size_t g, State<Real>& state) noexcept {
   GuardedReach::Terms& to = links_[g].terms;
-  for (const std::size_t l : links_[g].moving) {
-    reach_.find(members_[g].links[l], state.places(), to);
-    links_[g].links.setTerms(l, to.terms.data(), to.terms.size(), to.offset);
+  for (OnPlaces& on : links_[g].on_places) {
+    std::array<double, 4> here{};
+    for (std::size_t end = 0; end < 2; ++end) {
+      if (on.places[end] >= 0) {
+        std::copy_n(state.places() + 2 * on.places[end], 2, here.begin() + 2 * end);
+      }
+    }
+    if (here != on.found_at) {  // most places stand still
+      on.found_at = here;
+      reach_.find(members_[g].links[on.link], state.places(), to);
+      links_[g].links.setTerms(on.link, to.terms.data(), to.terms.size(), to.offset);
+    }
   }
 }
 

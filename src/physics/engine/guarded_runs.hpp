@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <vector>
 
@@ -54,18 +55,24 @@ class GuardedRuns {
   bool isFinite(const State<Real>& state) const noexcept;
 
  private:
+  /// A link with ends on places, and where these were when its modules were found.
+  struct OnPlaces {
+    std::size_t link = 0;
+    std::array<int, 2> places{-1, -1};
+    std::array<double, 4> found_at{};
+  };
   /// Links of one rate in one group.
   struct Links {
     GuardedLinks<Real> links;
     NearLinks<Real> near;
-    std::vector<std::size_t> moving;  // those with an end on a place
+    std::vector<OnPlaces> on_places;
     std::vector<std::size_t> taps;    // that they reach as modules
     std::vector<unsigned char> idle;  // [links]
     std::vector<int> slow;            // sections that are stepped more slowly
     std::vector<unsigned char> due;   // [sections] of these, that moved as the present step began
     std::size_t states_at;
     std::size_t clearances_at;
-    GuardedReach::Terms terms;  // of one of the moving
+    GuardedReach::Terms terms;  // of one of those on places
   };
 
   void addLinks(const scene::Scene& scene, const GuardedGroup& members, State<Real>& state);

@@ -69,11 +69,11 @@ void Library::include(const Node& files, Frame& frame) {
   }
 }
 
-/// Reads a file to include, each once, from the folder of the scene or below it.
+/// Reads a file to include, each once.
 void Library::readFile(const Node& name, Frame& frame) {
   const Place place = writer_.placeIn(name, frame);
   const std::string path =
-      pathOfNear(builder_, wordOf(builder_, name, "a file to include", place), "", place);
+      pathOfIncluded(builder_, wordOf(builder_, name, "a file to include", place), place);
   std::error_code unknown;  // reading says what is wrong with it
   const std::string real = std::filesystem::weakly_canonical(path, unknown).string();
   if (std::count(included_.begin(), included_.end(), real) > 0) {

@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "scene/tree/near_file.hpp"
 
+#include <filesystem>
+#include <system_error>
+
 #include "ergotic/exception.hpp"
 #include "files/read_file.hpp"
+#include "files/shipped_models.hpp"
 #include "scene/text/source_text.hpp"
 
 namespace ergotic::scene {
@@ -23,6 +27,19 @@ std::string pathOfNear(const SceneBuilder& builder,
     builder.fail(place, file + " is elsewhere, allowed: below the scene's folder");
   }
   return path;
+}
+
+std::string pathOfIncluded(const SceneBuilder& builder, const std::string& name, Place place) {
+  std::error_code failure;
+  const bool is_near = builder.mayReadFiles() &&
+                       std::filesystem::exists(besideFile(name, builder.scene().file), failure);
+  const std::string shipped = files::shippedModels();
+  const std::string path = shipped + "/" + name;
+  if (!is_near && !shipped.empty() && files::isBelow(path, shipped) &&
+      std::filesystem::is_regular_file(path, failure)) {
+    return path;
+  }
+  return pathOfNear(builder, name, "", place);
 }
 
 std::string readNear(const SceneBuilder& builder,

@@ -18,6 +18,10 @@ std::string pathOfNear(const SceneBuilder& builder,
                        const std::string& of,
                        Place place);
 
+/// Path of a file of definitions: near the scene or, if there is none, among those that are
+/// shipped, which a text without a folder may name, too. \throws TextError as `pathOfNear`
+std::string pathOfIncluded(const SceneBuilder& builder, const std::string& name, Place place);
+
 /// Text of such a file, up to `most` bytes. \throws TextError if it cannot be read
 std::string readNear(const SceneBuilder& builder,
                      const std::string& path,

@@ -12,16 +12,9 @@
 #include <CLI/CLI.hpp>
 
 #include "ergotic/exception.hpp"
+#include "files/shipped_models.hpp"
 
 namespace ergotic::tools {
-namespace {
-
-/// Folders between the programs and what has the models: an install space with lib/ergotic, the
-/// sources with devel/lib/ergotic, or with a build in a folder such as build/asan before that.
-constexpr int kMostFoldersUp = 5;
-
-}  // namespace
-
 std::string programFolder() {
   std::array<char, PATH_MAX> self{};
   if (readlink("/proc/self/exe", self.data(), self.size() - 1) <= 0) {
@@ -37,16 +30,9 @@ std::string sceneFile(const std::string& asked) {
   if (!is_name || std::filesystem::exists(asked, failure)) {
     return asked;
   }
-  std::filesystem::path folder = programFolder();
-  for (int up = 0; up <= kMostFoldersUp; ++up, folder = folder.parent_path()) {
-    for (const char* const models : {"share/ergotic/models", "models"}) {
-      const std::filesystem::path scene = folder / models / (asked + ".yaml");
-      if (std::filesystem::is_regular_file(scene, failure)) {
-        return scene.string();
-      }
-    }
-  }
-  return asked;
+  const std::filesystem::path scene =
+      std::filesystem::path(files::shippedModels()) / (asked + ".yaml");
+  return std::filesystem::is_regular_file(scene, failure) ? scene.string() : asked;
 }
 
 CLI::Option* addScene(CLI::App& app, std::string& scene) {

@@ -249,5 +249,38 @@ TEST(LanguageTest, FilesBringDefinitionsOnce) {
   std::filesystem::remove_all(folder);
 }
 
+TEST(LanguageTest, ShippedDefinitionsAreThereForScenesAnywhere) {
+  const std::string folder = "/tmp/ergotic_shipped_" + std::to_string(::getpid());
+  std::filesystem::create_directories(folder + "/lib");
+  const std::string text = HEAD
+      "include: [lib/keys.yaml]\n"
+      "use: [{is: touch_key, as: k, in: {keys: h}, with: {on: m}}]\n"
+      "mats: {m: {type: mass, section: a, mass: 1}}\n";
+  const Scene scene = readYaml(text, folder + "/s.yaml");
+  EXPECT_EQ(scene.mats.size(), 2U);
+  // Recordings keep what was played: they need no library.
+  EXPECT_EQ(readYaml(scene.text, "s.yaml", {}, {"", false}).mats.size(), 2U);
+  // A text that was sent has no folder, and may include them, too.
+  EXPECT_EQ(readYaml(text, "s.yaml", {}, {"", false}).mats.size(), 2U);
+
+  // A file of one's own comes first, though a shipped one has its name.
+  std::ofstream(folder + "/lib/keys.yaml") << "let: {x: 1}\n";
+  EXPECT_THAT(complaintOf<TextError>([&] { readYaml(text, folder + "/s.yaml"); }),
+              HasSubstr("no definition above has the name 'touch_key'"));
+  std::filesystem::remove_all(folder);
+}
+
+TEST(LanguageTest, NothingElseIsIncludedFromTheFolderOfShippedModels) {
+  const auto refusal = [](const std::string& name) {
+    return complaintOf<TextError>([&] {
+      readYaml(HEAD "include: ['" + name + "']\n", "s.yaml", {}, {"", false});
+    });
+  };
+  EXPECT_THAT(refusal("../README.md"), HasSubstr("has no folder"));
+  EXPECT_THAT(refusal("lib/../../README.md"), HasSubstr("has no folder"));
+  EXPECT_THAT(refusal("lib"), HasSubstr("has no folder"));
+  EXPECT_THAT(refusal("guitar.yaml"), HasSubstr("allowed: about, include, let, defaults, define"));
+}
+
 }  // namespace
 }  // namespace ergotic::scene

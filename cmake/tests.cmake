@@ -124,7 +124,7 @@ ergotic_tests_need(comedi comedi_probe)
 target_compile_definitions(ergotic_comedi_live_test PRIVATE
   COMEDI_PROBE="$<TARGET_FILE:comedi_probe>" COMEDI_STANDIN="$<TARGET_FILE:comedi_standin>")
 ergotic_add_gtests(tgr_jack 1 ergotic_jack_driver)
-ergotic_tests_need(golden render check)
+ergotic_tests_need(golden render check expand)
 ergotic_tests_need(tools check expand render)
 ergotic_tests_need(tgr_jack jack_tgr)
 if(ERGOTIC_ROS)

@@ -37,6 +37,7 @@ constexpr Limits kAngleLimits{"rad"};
 constexpr Limits kGravityLimits{"m/s^2"};
 constexpr Limits kSleepLimits{"J", 0.0, kInfinity, true};
 constexpr Limits kGainLimits{""};
+constexpr Limits kRadiationLimits{"Hz", 1.0, 20000.0};
 constexpr Limits kGesturalRateLimits{"Hz", 500.0, 48000.0};
 constexpr Limits kDivisorLimits{"audio frames", 1.0, 4096.0};
 constexpr Limits kModesLimits{"", 1.0, 1e6};

@@ -323,6 +323,9 @@ struct Output {
   int channel = 0;  ///< audio channel, from 0; outputs on one channel add up
   int axis = 0;     ///< the coordinate: 0 x, 1 y, 2 z; one that moves
   Value gain{1.0};  ///< per m, m/time_unit or kg m/time_unit^2
+  /// > 0: corner of a high pass of first order, Hz: a body radiates in proportion to its velocity
+  /// above it, and to its acceleration below. Of velocities only.
+  double radiation_hz = 0.0;
   Place place;
 };
 

@@ -17,7 +17,7 @@ class Pickups {
   /// \param out  [group.channels], here and below
   void takePositions(const Group& group,
                      const CoefficientsOf<Real>& c,
-                     const State<Real>& state,
+                     State<Real>& state,
                      double* out) const noexcept {
     for (std::size_t i = 0; i < group.pickups.size(); ++i) {
       out[group.pickup_columns[i]] += position(group.pickups[i], c, state);
@@ -34,17 +34,15 @@ class Pickups {
     }
   }
 
-  /// Output of a pickup of a position or velocity; 0 for pickups of forces.
-  double position(std::size_t k,
-                  const CoefficientsOf<Real>& c,
-                  const State<Real>& state) const noexcept {
+  /// Output of a pickup of a position or velocity; 0 for pickups of forces. Once in a frame.
+  double position(std::size_t k, const CoefficientsOf<Real>& c, State<Real>& state) const noexcept {
     const Pickup& pickup = layout_.pickups[k];
     const double gain = static_cast<double>(c.pickup_gains[k]);
     switch (pickup.quantity) {
       case scene::Quantity::kPosition:
         return gain * (read(state.x(), pickup) + pickup.rest);
       case scene::Quantity::kVelocity:
-        return gain * pickup.velocity * read(state.d(), pickup);
+        return gain * radiated(pickup, pickup.velocity * read(state.d(), pickup), state);
       default:
         return 0.0;
     }
@@ -70,6 +68,17 @@ class Pickups {
   int slotOf(std::size_t k) const noexcept { return layout_.pickups[k].slot; }
 
  private:
+  double radiated(const Pickup& pickup, double velocity, State<Real>& state) const noexcept {
+    if (pickup.radiation < 0) {
+      return velocity;
+    }
+    double& memory = state.radiated()[pickup.radiation];
+    const double heard = 0.5 * (1.0 + pickup.pole) * velocity;
+    const double sound = heard + memory;
+    memory = pickup.pole * sound - heard;
+    return sound;
+  }
+
   /// A quantity at a pickup, between two modules if it lies there.
   double read(const Real* values, const Pickup& pickup) const noexcept {
     const double here = static_cast<double>(values[pickup.slot]);

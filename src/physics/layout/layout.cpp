@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "physics/layout/layout.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <string>
 #include <utility>
 
 #include "at.hpp"
+#include "constants.hpp"
 #include "ergotic/exception.hpp"
 #include "physics/layout/blocks/lanes.hpp"
 #include "physics/layout/layout_links.hpp"
@@ -145,6 +148,13 @@ Pickup describePickup(const scene::Scene& scene,
   return pickup;
 }
 
+/// Of a high pass of first order by the bilinear rule, with its corner where it is asked for.
+double poleOfRadiation(double corner_hz, double rate_hz) {
+  constexpr double kHighest = 0.49;  // of the rate
+  const double t = std::tan(kPi * std::min(corner_hz / rate_hz, kHighest));
+  return (1.0 - t) / (1.0 + t);
+}
+
 bool follows(const scene::Value& v) {
   return v.audio >= 0;
 }
@@ -203,6 +213,10 @@ Layout makeLayout(const scene::Scene& scene, const Rates& rates) {
   }
   for (const scene::Output& output : scene.outputs) {
     layout.pickups.push_back(describePickup(scene, rates, output, layout));
+    if (output.radiation_hz > 0.0) {
+      layout.pickups.back().radiation = layout.radiations++;
+      layout.pickups.back().pole = poleOfRadiation(output.radiation_hz, rates.audio_hz);
+    }
   }
   for (const scene::Input& input : scene.inputs) {
     const scene::Mat& mat = scene.mats[at(input.mat)];

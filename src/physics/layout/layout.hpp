@@ -152,6 +152,8 @@ struct Pickup {
   double velocity = 1.0;  ///< from step difference to m/time_unit
   int divisor = 1;        ///< of the module's section
   int channel = 0;
+  int radiation = -1;  ///< index of its high pass, -1: none
+  double pole = 0.0;   ///< of that, y = (1 + pole)/2 (1 - 1/z)/(1 - pole/z) x
 };
 
 struct Feed {
@@ -201,6 +203,7 @@ struct Layout {
   std::vector<int> group_of_section;        ///< [sections] index of the group that steps it
   std::vector<std::vector<Proxy>> proxies;  ///< [groups that run]
   int first_proxy = 0;                      ///< slot; from here on there are proxies and gaps
+  int radiations = 0;                       ///< pickups with a high pass
 
   int slots() const { return static_cast<int>(mat_of_slot.size()); }
   int strideOf(const scene::Scene& scene, int mat) const;

@@ -58,6 +58,7 @@ class State {
     interpolated_forces_at_ =
         arena_.add<InterpolatedForce<Real>>("glide_forces", coordinatesOf(layout.interpolated));
     last_forces_at_ = arena_.add<Real>("last_force_outputs", layout.pickups.size());
+    radiated_at_ = arena_.add<double>("radiated", static_cast<std::size_t>(layout.radiations));
     asleep_at_ = arena_.add<unsigned char>("asleep", layout.sections.size());
     work_at_ = arena_.add<LinkWork>("link_work", metered ? layout.runs.size() : 0);
     for (const LinkRun& run : layout.runs) {
@@ -97,6 +98,8 @@ class State {
   double* placesOwe() noexcept { return arena_.at<double>(places_owe_at_); }
   double* places() noexcept { return arena_.at<double>(places_at_); }
   Real* lastForces() noexcept { return arena_.at<Real>(last_forces_at_); }
+  /// [Layout::radiations] memory of the high passes of outputs
+  double* radiated() noexcept { return arena_.at<double>(radiated_at_); }
   unsigned char* asleep() noexcept { return arena_.at<unsigned char>(asleep_at_); }
   /// [runs], if metered
   LinkWork* work() noexcept { return arena_.at<LinkWork>(work_at_); }
@@ -164,6 +167,7 @@ class State {
   std::size_t places_owe_at_ = 0;
   std::size_t interpolated_forces_at_ = 0;
   std::size_t last_forces_at_ = 0;
+  std::size_t radiated_at_ = 0;
   std::size_t asleep_at_ = 0;
   std::size_t work_at_ = 0;
 };

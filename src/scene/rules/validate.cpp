@@ -338,6 +338,9 @@ class Validator {
     number(out.place, "fraction" + of, out.point.fraction, kFractionLimits);
     number(out.place, "channel" + of, out.channel + 1, kChannelLimits);
     value(out.place, "gain" + of, out.gain, kGainLimits);
+    if (out.radiation_hz != 0.0) {
+      number(out.place, "radiation" + of, out.radiation_hz, kRadiationLimits);
+    }
     axis(out.place, of, out.axis, out.point.mat);
   }
 

@@ -122,6 +122,7 @@ const std::map<std::string, const char*>& values() {
       {"rest_length", kNumber},
       {"rest_length_ratio", kNumber},
       {"ring", kMap},
+      {"radiation", kNumber},
       {"rotate", kListOrNumber},
       {"rows", kNumber},
       {"scheme", kWord},

@@ -62,8 +62,8 @@ const KeyNames& inputKeys() {
 }
 
 const KeyNames& outputKeys() {
-  static const KeyNames kKeys = {"at",       "quantity", "channel", "channels",
-                                 "speakers", "pan",      "axis",    "gain"};
+  static const KeyNames kKeys = {"at",  "quantity", "channel", "channels", "speakers",
+                                 "pan", "axis",     "gain",    "radiation"};
   return kKeys;
 }
 

@@ -196,6 +196,13 @@ class OutputReader {
     }
     output.axis = readAxis(builder_, map, heard.points.front().mat);
     output.gain = map.value("gain", kGainLimits, {1.0});
+    if (map.has("radiation")) {
+      output.radiation_hz = map.number("radiation", kRadiationLimits);
+      if (output.quantity != Quantity::kVelocity) {
+        map.fail("radiation", "'radiation' of " + map.what() +
+                                  ", which hears no velocity, allowed: with 'quantity: velocity'");
+      }
+    }
     name_ = name;
     next_ = heard.points.size() > 1 || heard.are_many || !map.has("channel") ? 0 : -1;
     if (map.has("channel")) {

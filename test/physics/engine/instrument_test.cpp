@@ -144,6 +144,32 @@ TEST(InstrumentTest, ForceOutputIsTheForceOnTheModule) {
   EXPECT_NEAR(player.heard[1].back(), 5.0, 1e-9);
 }
 
+TEST(InstrumentTest, RadiationIsAHighPassOfFirstOrder) {
+  constexpr int kPeriod = 100;  // frames
+  const double kappa = 2.0 - 2.0 * std::cos(2.0 * kPi / kPeriod);
+  SceneBuilder b;
+  const int cell = b.cell(1e-3, kappa * 1e-3 * kRate * kRate, 0.0, 1e-3);
+  b.hear(cell, 0, Quantity::kVelocity);
+  b.hear(cell, 1, Quantity::kVelocity);
+  const double corner_hz = 2.0 * kRate / kPeriod;
+  b.scene.outputs.back().radiation_hz = corner_hz;
+  Player player(b.scene, {kRate, 1}, Precision::kDouble);
+  player.ticks(20 * kPeriod);
+  const auto lineOf = [&](int channel) {
+    std::complex<double> line;
+    for (int n = 10 * kPeriod; n < 20 * kPeriod; ++n) {
+      line += player.heard[at(channel)][at(n)] * std::polar(1.0, -2.0 * kPi * n / kPeriod);
+    }
+    return line;
+  };
+  // In the bilinear rule tan(pi f h) stands for the frequency.
+  const double f = std::tan(kPi / kPeriod);
+  const double corner = std::tan(kPi * corner_hz / kRate);
+  const std::complex<double> expected =
+      std::complex<double>(0.0, f) / std::complex<double>(corner, f);
+  EXPECT_LT(std::abs(lineOf(1) / lineOf(0) - expected), 1e-9);
+}
+
 TEST(InstrumentTest, DrivenPositionIsFollowedInTheSameFrame) {
   SceneBuilder b;
   const int driven = b.driven(0);
@@ -169,6 +195,8 @@ TEST(InstrumentTest, StateLoadedAgainPlaysTheSameBits) {
     lia.scheme = Scheme::kGuarded;
   }
   b.hear(first + 8);
+  b.hear(first + 8, 1, Quantity::kVelocity);
+  b.scene.outputs.back().radiation_hz = 300.0;
   for (const Precision precision : {Precision::kFloat, Precision::kDouble}) {
     Player player(b.scene, {kRate, 14}, precision);
     player.positions[0] = 0.002;
@@ -181,10 +209,12 @@ TEST(InstrumentTest, StateLoadedAgainPlaysTheSameBits) {
     other.instrument->loadState(state.data());
     other.ticks(100);
     const std::size_t frames = other.heard[0].size();
-    EXPECT_EQ(std::memcmp(other.heard[0].data(), player.heard[0].data() + frames,
-                          frames * sizeof(double)),
-              0);
-    EXPECT_GT(std::abs(other.heard[0].back()), 0.0);
+    for (const std::size_t channel : {0U, 1U}) {
+      EXPECT_EQ(std::memcmp(other.heard[channel].data(), player.heard[channel].data() + frames,
+                            frames * sizeof(double)),
+                0);
+      EXPECT_GT(std::abs(other.heard[channel].back()), 0.0);
+    }
   }
 }
 

@@ -170,8 +170,8 @@ TEST_F(VariantFileTest, SaysWhatItCannotDoAndWritesNothing) {
   EXPECT_FALSE(fs::exists(folder_ / "presets"));
 }
 
-TEST_F(VariantFileTest, IsOfShippedScenesWhetherTheyIncludeFilesOrNot) {
-  for (const auto& [name, includes] : {std::pair("string", false), {"guitar", true}}) {
+TEST_F(VariantFileTest, IsTheTextOfShippedScenesWhetherTheyIncludeFilesOrNot) {
+  for (const char* const name : {"string", "guitar"}) {
     const scene::Scene scene =
         scene::readSceneFile(repository(std::string("models/") + name + ".yaml"));
     PresetValues values;
@@ -179,7 +179,7 @@ TEST_F(VariantFileTest, IsOfShippedScenesWhetherTheyIncludeFilesOrNot) {
       values[parameter.name] = 0.3 * parameter.minimum + 0.7 * parameter.maximum;
     }
     EXPECT_EQ(saved(scene, values), values) << name;
-    EXPECT_EQ(saved_.is_written_out, includes) << name;
+    EXPECT_FALSE(saved_.is_written_out) << name;
   }
 }
 

@@ -279,7 +279,7 @@ TEST(LanguageTest, NothingElseIsIncludedFromTheFolderOfShippedModels) {
   EXPECT_THAT(refusal("../README.md"), HasSubstr("has no folder"));
   EXPECT_THAT(refusal("lib/../../README.md"), HasSubstr("has no folder"));
   EXPECT_THAT(refusal("lib"), HasSubstr("has no folder"));
-  EXPECT_THAT(refusal("guitar.yaml"), HasSubstr("allowed: about, include, let, defaults, define"));
+  EXPECT_THAT(refusal("guitar.yaml"), HasSubstr("known: about, include, let, defaults, define"));
 }
 
 }  // namespace

@@ -21,7 +21,7 @@ std::string pathOfNear(const SceneBuilder& builder,
                             " is nowhere, for this text is no file and has no folder, allowed: " +
                             "what it would say");
   }
-  const std::string path = besideFile(name, builder.scene().file);
+  std::string path = besideFile(name, builder.scene().file);
   if (name.empty() || name.front() == '/' ||
       !files::isBelow(path, besideFile(".", builder.scene().file))) {
     builder.fail(place, file + " is elsewhere, allowed: below the scene's folder");
@@ -34,7 +34,7 @@ std::string pathOfIncluded(const SceneBuilder& builder, const std::string& name,
   const bool is_near = builder.mayReadFiles() &&
                        std::filesystem::exists(besideFile(name, builder.scene().file), failure);
   const std::string shipped = files::shippedModels();
-  const std::string path = shipped + "/" + name;
+  std::string path = shipped + "/" + name;
   if (!is_near && !shipped.empty() && files::isBelow(path, shipped) &&
       std::filesystem::is_regular_file(path, failure)) {
     return path;

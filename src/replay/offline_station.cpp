@@ -9,6 +9,10 @@
 namespace ergotic::replay {
 namespace {
 
+/// The shortest that a station takes: no hand waits here for the force to come, and strokes during
+/// a ramp go further than later ones, for less holds them back.
+constexpr double kRampS = 0.1;
+
 station::StationConfig configOf(const physics::Rates& rates,
                                 int inputs,
                                 int outputs,
@@ -19,6 +23,7 @@ station::StationConfig configOf(const physics::Rates& rates,
   config.output_channels = outputs;
   config.record_ring = 1;  // nobody reads it
   config.first_tick = first_tick;
+  config.safety.ramp_s = kRampS;
   return config;
 }
 

@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "rviz/station_panel.hpp"
 
+#include <QAbstractItemView>
+#include <QApplication>
 #include <QHBoxLayout>
 #include <QIcon>
+#include <QMouseEvent>
 #include <QPainter>
+#include <QScreen>
 #include <QScrollBar>
 #include <QShortcut>
 #include <QWheelEvent>
@@ -33,8 +37,18 @@ std::vector<StationPanel*>& panels() {
   return all;
 }
 
-/// Combo box that ignores the wheel, so that scrolling does not load another instrument.
+/// Combo box that ignores the wheel, so that scrolling does not load another instrument. Its list
+/// opens below it and ends within the screen, so that it never covers the emergency stop above.
 class Chooser : public QComboBox {
+ public:
+  Chooser() { setStyleSheet("QComboBox { combobox-popup: 0; }"); }
+
+  void showPopup() override {
+    const int room = screen()->availableGeometry().bottom() - mapToGlobal(rect().bottomLeft()).y();
+    setMaxVisibleItems(std::max(room / std::max(view()->sizeHintForRow(0), 1) - 1, 1));
+    QComboBox::showPopup();
+  }
+
  protected:
   void wheelEvent(QWheelEvent* event) override { event->ignore(); }
   void paintEvent(QPaintEvent* event) override {
@@ -45,6 +59,28 @@ class Chooser : public QComboBox {
       painter.drawText(rect().adjusted(8, 0, -28, 0), Qt::AlignVCenter, placeholderText());
     }
   }
+};
+
+/// Presses a button also where a list or a menu is open, which otherwise takes the first press of
+/// the mouse for itself.
+class PressBesidePopup : public QObject {
+ public:
+  explicit PressBesidePopup(QPushButton* button) : QObject(button), button_(button) {
+    qApp->installEventFilter(this);
+  }
+
+  bool eventFilter(QObject* watched, QEvent* event) override {
+    if (event->type() == QEvent::MouseButtonPress && watched == QApplication::activePopupWidget()) {
+      const QPoint at = button_->mapFromGlobal(static_cast<QMouseEvent*>(event)->globalPos());
+      if (button_->isVisible() && button_->rect().contains(at)) {
+        button_->click();
+      }
+    }
+    return false;
+  }
+
+ private:
+  QPushButton* button_;
 };
 
 QLabel* title(const QString& text) {
@@ -153,6 +189,7 @@ void StationPanel::addForce(QVBoxLayout* column) {
   QObject::connect(stop_, &QPushButton::clicked, this, press(&StationLink::stop));
   QObject::connect(recover_, &QPushButton::clicked, this, press(&StationLink::recover));
   QObject::connect(emergency_, &QPushButton::clicked, this, press(&StationLink::emergencyStop));
+  adopted<PressBesidePopup>(emergency_);
   answer_ = adopted<Paragraph>(2, this);
 
   column->addWidget(lamp_);

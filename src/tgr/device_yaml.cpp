@@ -16,7 +16,7 @@ using scene::YamlMap;
 
 /// Reads the name of a driver, as `virtual`, or a plugin's `package/name`.
 std::string driverName(const YamlMap& map) {
-  const std::string name = map.word("driver");
+  std::string name = map.word("driver");
   const auto is_legal = [](char c) {
     return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || c == '-' || c == '/';
   };

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <cstdint>
 #include <cstdlib>
+#include <exception>
 #include <iostream>
 #include <string>
 #include <vector>
@@ -8,7 +9,6 @@
 #include <CLI/CLI.hpp>
 
 #include "ergotic/audio/jack_client.hpp"
-#include "ergotic/exception.hpp"
 #include "ergotic/rt/clock.hpp"
 #include "tgr/drivers/jack/jack_device.hpp"
 #include "tgr/drivers/jack/step_meter.hpp"
@@ -174,21 +174,22 @@ int measure(const Options& options, const tools::Signals& signals) {
 }  // namespace ergotic
 
 int main(int argc, char** argv) {
-  CLI::App app(
-      "A virtual TGR behind a sound card, as a JACK client; `driver: jack` is wired to its ports.\n"
-      "Behind a real card there is no watchdog unless the amplifier has one for the heartbeat.");
-  ergotic::Options options;
-  ergotic::declare(app, options);
-  ergotic::tools::checkNumbers(app);
-  CLI11_PARSE(app, argc, argv);
-  constexpr double kSPerMs = 1e-3;
-  options.device.watchdog_s = options.watchdog_ms * kSPerMs;
-  options.device.declares_latency = !options.undeclared;
   try {
+    CLI::App app(
+        "A virtual TGR behind a sound card, as a JACK client; `driver: jack` is wired to its "
+        "ports.\n"
+        "Behind a real card there is no watchdog unless the amplifier has one for the heartbeat.");
+    ergotic::Options options;
+    ergotic::declare(app, options);
+    ergotic::tools::checkNumbers(app);
+    CLI11_PARSE(app, argc, argv);
+    constexpr double kSPerMs = 1e-3;
+    options.device.watchdog_s = options.watchdog_ms * kSPerMs;
+    options.device.declares_latency = !options.undeclared;
     const ergotic::tools::Signals signals;
     const bool measures = options.measure > 0 || !options.cable.empty();
     return measures ? ergotic::measure(options, signals) : ergotic::play(options, signals);
-  } catch (const ergotic::Exception& error) {
+  } catch (const std::exception& error) {
     std::cerr << "jack_tgr: " << error.what() << '\n';
     return EXIT_FAILURE;
   }

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cstdlib>
+#include <exception>
 #include <iostream>
 #include <optional>
 #include <string>
@@ -111,14 +112,14 @@ int run(const Options& options) {
 }  // namespace ergotic
 
 int main(int argc, char** argv) {
-  CLI::App app("A virtual TGR as a process of its own; `driver: virtual` finds it by its name.");
-  ergotic::Options options;
-  ergotic::declare(app, options);
-  ergotic::tools::checkNumbers(app);
-  CLI11_PARSE(app, argc, argv);
   try {
+    CLI::App app("A virtual TGR as a process of its own; `driver: virtual` finds it by its name.");
+    ergotic::Options options;
+    ergotic::declare(app, options);
+    ergotic::tools::checkNumbers(app);
+    CLI11_PARSE(app, argc, argv);
     return ergotic::run(options);
-  } catch (const ergotic::Exception& error) {
+  } catch (const std::exception& error) {
     std::cerr << "virtual_tgr: " << error.what() << '\n';
     return EXIT_FAILURE;
   }

@@ -1,11 +1,14 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
 """A player at rviz: keys of the panel `ergotic/StationPanel`, and what a real station makes of them."""
+import io
 import os
 import subprocess
 
+import numpy
 import rospy
 import rostest
+from PIL import Image
 
 from desk import ROOT, DeskTest, Newest, until
 from ergotic.msg import ModelStructure, Parameters, Status
@@ -58,6 +61,8 @@ class PanelTest(DeskTest):
         self.assertEqual(self.status.message.fault, Status.FAULT_EMERGENCY_STOP)
         self.expect(Status.READY, key="F7")  # refused within half a second after the stop
 
+        self.check_emergency_stop_beside_an_open_list()
+
         self.station.kill()
         self.station.wait()
         self.press("F5")
@@ -68,6 +73,19 @@ class PanelTest(DeskTest):
         self.press("ctrl+q")
         self.assertTrue(until(lambda: self.rviz.poll() is not None), "rviz does not end")
         self.assertEqual(self.rviz.returncode, 0)
+
+    def check_emergency_stop_beside_an_open_list(self):
+        """Neither does the list of instruments cover the red button, nor does it take the click for itself."""
+        self.expect(*FORCE, key="F5")
+        shot = subprocess.run(["import", "-window", "root", "png:-"], capture_output=True, check=True, timeout=10).stdout
+        red, green, blue = (numpy.asarray(band, dtype=int) for band in Image.open(io.BytesIO(shot)).convert("RGB").split())
+        rows, columns = numpy.nonzero((red > 150) & (green < 60) & (blue < 60))
+        at = str(int(numpy.median(columns))), str(int(numpy.median(rows)) + 10)  # below its words
+        self.press("F3", "alt+Down")
+        rospy.sleep(1.0)
+        subprocess.run(["xdotool", "mousemove", *at, "click", "1"], check=True, timeout=10)
+        self.expect(Status.FAULT)
+        self.expect(Status.READY, key="F7")
 
     def check_sliders(self):
         at_first = self.values()

@@ -84,9 +84,12 @@ struct Slips {
 
 /// Half a second of violin_g under a bow at 0.1 m/s, 1 s after it began.
 /// \param press_m  where the hand that presses wants to be
-Slips bow(double press_m) {
-  const test::ScratchFile gesture("time_s,slice,target_m\n0,0,-0.018\n0,1,0\n0.3,1," +
-                                  std::to_string(press_m) + "\n0.4,0,-0.018\n2.2,0,0.018\n");
+/// \param first_m  the same as the bow begins
+Slips bow(double press_m, double first_m) {
+  const std::string attack = std::to_string(first_m);
+  const test::ScratchFile gesture("time_s,slice,target_m\n0,0,-0.018\n0,1,0\n0.3,1," + attack +
+                                  "\n0.4,0,-0.018\n0.6,1," + attack + "\n0.9,1," +
+                                  std::to_string(press_m) + "\n2.2,0,0.018\n");
   scene::ClaimingScene claims =
       shipped("violin_g",
               "  string: {at: string.body@0.89, quantity: velocity, channel: 1}\n"
@@ -121,10 +124,11 @@ Slips bow(double press_m) {
   return slips;
 }
 
-/// Helmholtz: it slips once in a period, for as much of it as lies beyond the bow.
+/// Helmholtz: it slips once in a period, for as much of it as lies beyond the bow. It begins with
+/// more pressure, as players do: from rest this motion needs a multiple of what keeps it.
 TEST(BowedViolinTest, SlipsOnceInAPeriodWhereItIsPlayable) {
   for (const double press_m : {0.0034, 0.0036, 0.004}) {  // 0.21, 0.28 and 0.42 N
-    const Slips slips = bow(press_m);
+    const Slips slips = bow(press_m, 0.0045);
     EXPECT_NEAR(slips.in_period, 1.0, 0.02) << press_m;
     EXPECT_NEAR(slips.longest, 1.0, 0.02) << press_m;
     EXPECT_NEAR(slips.shortest, 1.0, 0.02) << press_m;
@@ -135,10 +139,10 @@ TEST(BowedViolinTest, SlipsOnceInAPeriodWhereItIsPlayable) {
 /// Below the least force of Schelleng it slips more often, above the largest raggedly.
 TEST(BowedViolinTest, DoesNotWhereTheForceIsTooSmallOrTooLarge) {
   for (const double press_m : {0.0031, 0.0032}) {  // 0.01 and 0.08 N
-    EXPECT_GT(bow(press_m).in_period, 1.9) << press_m;
+    EXPECT_GT(bow(press_m, press_m).in_period, 1.9) << press_m;
   }
   for (const double press_m : {0.006, 0.008}) {  // 1.1 and 1.8 N
-    const Slips slips = bow(press_m);
+    const Slips slips = bow(press_m, press_m);
     EXPECT_GT(slips.longest - slips.shortest, 0.5) << press_m;
   }
 }

@@ -26,7 +26,7 @@ int onString(SceneBuilder& builder, const StopsSpec& spec, const Name& name, dou
   connection.grid = spec.grid;
   connection.along.at = {along};
   connection.place = spec.place;
-  return addPoint(builder, name.str(), std::move(connection));
+  return addPoint(builder, name.str(), connection);
 }
 
 }  // namespace

@@ -32,7 +32,7 @@ Eigen::Vector3d commonNormal(const std::vector<Eigen::Vector3d>& speakers) {
 /// Pairs of speakers next to one another around the listener, less than half a turn apart.
 std::vector<std::vector<std::size_t>> pairsOf(const std::vector<Eigen::Vector3d>& speakers,
                                               const Eigen::Vector3d& normal) {
-  const Eigen::Vector3d ahead = speakers.front();
+  const Eigen::Vector3d& ahead = speakers.front();
   const Eigen::Vector3d aside = normal.cross(ahead);
   std::vector<std::pair<double, std::size_t>> around;
   for (std::size_t i = 0; i < speakers.size(); ++i) {

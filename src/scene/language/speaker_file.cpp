@@ -4,6 +4,7 @@
 #include <sstream>
 
 #include "scene/text/csv.hpp"
+#include "scene/text/number.hpp"
 #include "scene/tree/near_file.hpp"
 #include "scene/tree/yaml_map.hpp"
 

@@ -280,7 +280,7 @@ int macroPoint(SceneBuilder& builder, MdlNumbers& numbers, const MdlToken& at) {
   const double sample_s = 1.0 / kMdlRateHz;
   connection.power = kPointEnergyPerSecond / (sample_s * sample_s);
   const int known = builder.findMat(name);
-  return known >= 0 ? known : addPoint(builder, name, std::move(connection));
+  return known >= 0 ? known : addPoint(builder, name, connection);
 }
 
 }  // namespace ergotic::scene

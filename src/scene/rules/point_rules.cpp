@@ -67,7 +67,7 @@ std::optional<Fault> misplacedPoint(const Scene& scene) {
     ++found[static_cast<std::size_t>(connection.mat)];
   }
   for (const Tap& tap : scene.taps) {
-    if (const std::optional<Fault> fault = faultOfTap(scene, tap)) {
+    if (std::optional<Fault> fault = faultOfTap(scene, tap)) {
       return fault;
     }
     ++found[static_cast<std::size_t>(tap.mat)];

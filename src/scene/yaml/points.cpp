@@ -2,7 +2,6 @@
 #include "scene/yaml/points.hpp"
 
 #include <cmath>
-#include <utility>
 
 #include "scene/generate/points.hpp"
 #include "scene/yaml/selections.hpp"
@@ -70,7 +69,7 @@ int pointAt(SceneBuilder& builder, const std::string& text, Place place) {
   connection.along.at = {at.along};
   connection.across.at = {at.across};
   connection.place = place;
-  return addPoint(builder, name, std::move(connection));
+  return addPoint(builder, name, connection);
 }
 
 }  // namespace ergotic::scene

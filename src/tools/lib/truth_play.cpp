@@ -24,7 +24,7 @@ constexpr int kEnergyTicks = 64;  // between looks at the energy accounts
 std::string gestureOf(const scene::Scene& scene, const Truth& truth) {
   const std::size_t slash = scene.file.rfind('/');
   const std::string folder = slash == std::string::npos ? "." : scene.file.substr(0, slash);
-  const std::string path = folder + "/" + truth.gesture;
+  std::string path = folder + "/" + truth.gesture;
   if (!files::isBelow(path, folder)) {
     throw Exception("gesture '" + path + "' is elsewhere, allowed: below the scene's folder");
   }

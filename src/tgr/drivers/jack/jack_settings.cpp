@@ -25,7 +25,7 @@ std::string physical(int index) {
 std::string portOf(const Settings& settings, const scene::Node& node, const std::string& key) {
   const scene::Place place = scene::placeOf(node, settings.top().placeAt(key));
   const std::string what = "port of " + key;
-  const std::string word = scene::wordOf(settings.builder(), node, what, place);
+  std::string word = scene::wordOf(settings.builder(), node, what, place);
   if (word.find(':') != std::string::npos) {
     return word;
   }

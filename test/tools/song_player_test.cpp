@@ -31,6 +31,7 @@ sections: {k: {rate: gestural}}
 mats:
   'key_{k}': {for: {k: 0..2}, type: slice, section: k, at: ['=0.1*k', 0]}
   wall: {type: ground, section: k, x: 1}
+  floor: {type: ground, section: k}
   place: {type: ground, section: k, x: 0.5}
 lias: {touch: {type: contact, between: [key_0, wall], stiffness: 100}}
 ports: {'key_{k}': {for: {k: 0..2}, mat: 'key_{k}', slice: =k}}
@@ -44,10 +45,10 @@ controllers: [{controller: 7, parameter: volume}]
 )";
 constexpr double kGlideS = tgr::HandMove::kPeakOfMean * kWayM / 0.5;
 
-std::unique_ptr<station::Performer> threeSlices() {
+std::unique_ptr<station::Performer> threeSlices(const std::string& scene = kThreeSlices) {
   station::PerformerPolicy policy;
   policy.allow_unproven = true;
-  return station::makePerformer(scene::readYaml(kThreeSlices, "nowhere/three.yaml"), kRates,
+  return station::makePerformer(scene::readYaml(scene, "nowhere/three.yaml"), kRates,
                                 physics::Precision::kDouble, policy);
 }
 
@@ -56,8 +57,10 @@ Song songOf(const MidiBytes& bytes) {
   return readSong(file.path());
 }
 
-std::unique_ptr<Player> threeSlicesPlayedBy(const Song& song, const std::string& map) {
-  auto performer = threeSlices();
+std::unique_ptr<Player> threeSlicesPlayedBy(const Song& song,
+                                            const std::string& map,
+                                            const std::string& scene = kThreeSlices) {
+  auto performer = threeSlices(scene);
   SoundInputs inputs({}, performer->instrument->scene(), kRates.audio_hz);
   return makeSongPlayer(std::move(performer), std::move(inputs), {}, song, map);
 }
@@ -65,9 +68,12 @@ std::unique_ptr<Player> threeSlicesPlayedBy(const Song& song, const std::string&
 /// [ticks][outputs], of the last frame of each.
 using Ticks = std::vector<std::array<double, kSlices + 1>>;
 
-Ticks heard(const Song& song, const std::string& map_text, int ticks) {
+Ticks heard(const Song& song,
+            const std::string& map_text,
+            int ticks,
+            const std::string& scene = kThreeSlices) {
   const ScratchFile map(map_text);
-  const auto player = threeSlicesPlayedBy(song, map.path());
+  const auto player = threeSlicesPlayedBy(song, map.path(), scene);
   Ticks heard;
   std::vector<double> frames(static_cast<std::size_t>(kRates.ratio * player->outputChannels()));
   for (int n = 0; n < ticks; ++n) {
@@ -113,6 +119,28 @@ TEST(SongPlayerTest, StrokesBeginWhenTheirNotesDo) {
   const double first = halfWayAt(played, 0) - times_s[0] * kTickHz;
   EXPECT_NEAR(halfWayAt(played, 1) - times_s[1] * kTickHz, first, 0.1);
   EXPECT_NEAR(halfWayAt(played, 2) - times_s[2] * kTickHz, first, 0.1);
+}
+
+/// A hand that meets a spring goes as far at the first note as at one that comes much later.
+TEST(SongPlayerTest, TheFirstNoteMeetsAsMuchForceAsLaterOnes) {
+  std::string scene = kThreeSlices;
+  const std::string contact = "contact, between: [key_0, wall], stiffness: 100";
+  scene.replace(scene.find(contact), contact.size(),
+                "spring, between: [key_0, floor], stiffness: 200");
+  MidiBytes song;
+  song.add(1, 240, {0x90, 60, 100}).add(1, 480, {0x80, 60, 0});    // from 0.25 s to 0.5 s
+  song.add(1, 2880, {0x90, 60, 100}).add(1, 3120, {0x80, 60, 0});  // from 3 s to 3.25 s
+  const Ticks played = heard(songOf(song), kMapOfThree, 11000, scene);
+  const auto furthest = [&](double from_s) {
+    const auto from = static_cast<std::size_t>(from_s * kTickHz);
+    double most = 0.0;
+    for (std::size_t n = from; n < from + static_cast<std::size_t>(0.4 * kTickHz); ++n) {
+      most = std::max(most, played[n][0]);
+    }
+    return most;
+  };
+  EXPECT_GT(furthest(3.0), 0.1 * kWayM);
+  EXPECT_NEAR(furthest(0.25), furthest(3.0), 1e-3 * kWayM);
 }
 
 TEST(SongPlayerTest, PlaysBitForBitWhatTheSameMovesDoAtAStation) {

@@ -147,7 +147,7 @@ void gong(SceneBuilder& builder, int modules) {
     scene::Lia lia = scene.lias[l];
     lia.name = scene::Name("hard." + std::to_string(l));
     lia.type = scene::LiaType::kCubic;
-    lia.scheme = scene::Scheme::kGuarded;
+    lia.scheme = scene::Scheme::kEnergyStable;
     lia.law.edit().nonlinearity = (1.0 / (kThickness * kThickness)) * lia.stiffness;
     lia.stiffness = lia.damping = {};
     lia.tank = 0;

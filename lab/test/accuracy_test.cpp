@@ -61,7 +61,7 @@ TEST(AccuracyTest, ContactsAreAsWrongAsForetold) {
     const double steps = 1e-3 * m.rates.audio_hz;
     const ContactFigure figure =
         m.measure == "duration" ? ContactFigure::kDuration : ContactFigure::kPeakForce;
-    const Scheme scheme = m.family == "energy_stable" ? Scheme::kGuarded : Scheme::kExplicit;
+    const Scheme scheme = m.family == "energy_stable" ? Scheme::kEnergyStable : Scheme::kExplicit;
     const double foretold = physics::contactError(figure, scheme, m.exponent, steps);
     const double rounding = isFloat(m) ? physics::kFloatPitchError : 1e-12;
     EXPECT_LT(errorOf(m), 2.0 * foretold + rounding) << describe(m);
@@ -79,7 +79,7 @@ TEST(AccuracyTest, BowsAreNoWorseThanForetold) {
     }
     const bool is_stable = m.family.find("energy_stable") != std::string::npos;
     const double pitch_hz = m.family.find("string") != std::string::npos ? 196.0 : 143.0;
-    const double foretold = physics::bowError(is_stable ? Scheme::kGuarded : Scheme::kExplicit,
+    const double foretold = physics::bowError(is_stable ? Scheme::kEnergyStable : Scheme::kExplicit,
                                               m.rates.audio_hz / pitch_hz);
     EXPECT_LT(errorOf(m), 1.5 * foretold) << describe(m);
     is_close = is_close || (!is_stable && errorOf(m) > 0.8 * foretold);

@@ -95,13 +95,13 @@ double contactDuration(double exponent, double stiffness, double mass, double de
 
 double contactError(ContactFigure figure, scene::Scheme scheme, double exponent, double steps) {
   const double above = exponent - 1.0;
-  const bool guarded = scheme == scene::Scheme::kGuarded;
+  const bool energy_stable = scheme == scene::Scheme::kEnergyStable;
   if (figure == ContactFigure::kPeakForce) {
-    const double size = guarded ? 1.3 + 2.0 * above : 0.65 + 0.42 * above;
+    const double size = energy_stable ? 1.3 + 2.0 * above : 0.65 + 0.42 * above;
     return std::min(size / (steps * steps), 1.0);
   }
-  return std::min(guarded ? 0.17 * std::exp(1.1 * above) / std::pow(steps, 4)
-                          : (kPi * kPi / 24.0 + 0.19 * above) / (steps * steps),
+  return std::min(energy_stable ? 0.17 * std::exp(1.1 * above) / std::pow(steps, 4)
+                                : (kPi * kPi / 24.0 + 0.19 * above) / (steps * steps),
                   1.0);
 }
 
@@ -114,7 +114,7 @@ double handError(scene::Coupling coupling, double slow_steps) {
 }
 
 double bowError(scene::Scheme scheme, double steps) {
-  return std::min((scheme == scene::Scheme::kGuarded ? 0.2 : 1.0) / steps, 1.0);
+  return std::min((scheme == scene::Scheme::kEnergyStable ? 0.2 : 1.0) / steps, 1.0);
 }
 
 }  // namespace ergotic::physics

@@ -16,7 +16,7 @@ namespace {
 
 using scene::Scene;
 
-constexpr int kMostHeard = 400;  // modes
+constexpr int kMaxHeard = 400;  // modes
 constexpr double kSemitone = 1.0595;
 constexpr double kHighestRatio = 4.0;  // times a pitch, how high a parameter may lift it
 constexpr double kAtHome = 0.3;        // of its kinetic energy a mode has in the body that sounds
@@ -24,7 +24,7 @@ constexpr double kHeardCents = 0.5;
 constexpr double kHeardLoss = 0.1;
 constexpr int kSteps = 8;            // in which a range is searched
 constexpr double kPrecision = 1e-6;  // of a figure
-constexpr int kMostHalvings = 60;
+constexpr int kMaxHalvings = 60;
 
 /// The first partial that a body asks for.
 struct Body {
@@ -129,7 +129,7 @@ class Figure {
   }
 
   SceneModes modesIn(const Scene& scene) const {
-    return modesOf(settle(scene, rates_).scene, rates_, {0.0, highest_hz_, kMostHeard}, scene);
+    return modesOf(settle(scene, rates_).scene, rates_, {0.0, highest_hz_, kMaxHeard}, scene);
   }
 
   std::optional<double> marginOf(const Scene& scene) const {
@@ -214,7 +214,7 @@ class ParameterSearch {
 
   /// \return none where the figure jumps over what is wanted
   std::optional<double> crossing(Point a, Point b) const {
-    for (int i = 0; i < kMostHalvings; ++i) {
+    for (int i = 0; i < kMaxHalvings; ++i) {
       const bool is_first = std::abs(a.figure - wanted_) < std::abs(b.figure - wanted_);
       const Point& better = is_first ? a : b;
       if (std::abs(better.figure - wanted_) <= kPrecision * std::abs(wanted_)) {
@@ -245,7 +245,7 @@ HeardBodies listenTo(const Scene& scene, const Rates& rates) {
   for (std::size_t a = 0; a < pitches.size(); ++a) {
     to_hz = std::max(to_hz, isFirst(pitches, a) ? kSemitone * pitches[a].hz : 0.0);
   }
-  const SceneModes found = modesOf(settled, rates, {0.0, to_hz, kMostHeard}, scene);
+  const SceneModes found = modesOf(settled, rates, {0.0, to_hz, kMaxHeard}, scene);
   for (const SceneMode& mode : found.modes) {
     if (mode.asked < 0 || !isFirst(found.asked, at(mode.asked))) {
       continue;

@@ -15,11 +15,11 @@ namespace {
 
 using Complex = std::complex<double>;
 
-constexpr double kShared = 1e-9;     // of a shape that losses make of a mode: they share it
-constexpr double kExact = 1e-11;     // relative, of a pole
-constexpr double kOneMode = 0.99;    // of two shapes
-constexpr int kMostProjected = 200;  // modes among which the problem is solved
-constexpr int kMostRefinements = 6;
+constexpr double kShared = 1e-9;    // of a shape that losses make of a mode: they share it
+constexpr double kExact = 1e-11;    // relative, of a pole
+constexpr double kOneMode = 0.99;   // of two shapes
+constexpr int kMaxProjected = 200;  // modes among which the problem is solved
+constexpr int kMaxRefinements = 6;
 
 class Damping {
  public:
@@ -98,7 +98,7 @@ class Damping {
 
   /// The problem among all modes that are known. Those of motions as a whole are not among them.
   void project(const Eigen::MatrixXd& lost) {
-    const Eigen::Index size = std::min<Eigen::Index>(kappa_.size(), kMostProjected);
+    const Eigen::Index size = std::min<Eigen::Index>(kappa_.size(), kMaxProjected);
     const Eigen::VectorXd root = kappa_.head(size).cwiseMax(0.0).cwiseSqrt();
     if (size < count_ || kappa_.head(size).minCoeff() < 0.0) {
       return;
@@ -153,7 +153,7 @@ class Damping {
     for (int i = 0; i < count_; ++i) {
       DampedMode& mode = modes_[at(i)];
       const DampedMode first = mode;
-      for (int k = 0; k < kMostRefinements && !isExact(mode); ++k) {
+      for (int k = 0; k < kMaxRefinements && !isExact(mode); ++k) {
         DampedMode next = refined(mode);
         if (!(next.error < mode.error)) {
           break;

@@ -182,7 +182,7 @@ class Assembler {
       const bool across = isHere(lia.a) != isHere(lia.b);
       const int other = isHere(lia.a) ? lia.b : lia.a;
       found_.held += across && !sharesNow(network_, other).empty() ? 1 : 0;
-      found_.guarded += lia.scheme == scene::Scheme::kGuarded ? 1 : 0;
+      found_.energy_stable += lia.scheme == scene::Scheme::kEnergyStable ? 1 : 0;
       found_.relaxing += law.kind == scene::Law::Kind::kRelaxing ? 1 : 0;
     }
   }

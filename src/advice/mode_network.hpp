@@ -37,9 +37,9 @@ struct ModeNetwork {
   std::vector<double> root_mass;  ///< [rows] kg^1/2
   std::vector<ModeLoad> loads;
   std::vector<HeardForce> forces;
-  int held = 0;      ///< links whose other end moves at another rate, where it is held
-  int guarded = 0;   ///< links that are guarded, taken as if they were explicit
-  int relaxing = 0;  ///< links whose memory is left out
+  int held = 0;           ///< links whose other end moves at another rate, where it is held
+  int energy_stable = 0;  ///< links that are energy-stable, taken as if they were explicit
+  int relaxing = 0;       ///< links whose memory is left out
 
   int rows() const { return static_cast<int>(mat_of.size()); }
 };

@@ -21,13 +21,13 @@ namespace {
 using Matrix = Eigen::SparseMatrix<double>;
 using Factor = Eigen::SimplicialLDLT<Matrix>;
 
-constexpr double kSoft = 1e-12;        // of the largest: below, eigenvalues are those of rounding
-constexpr double kRigid = 1e-16;       // of the largest: below, a motion as a whole
-constexpr int kMostRigidVectors = 12;  // more are counted only
-constexpr int kMostRounds = 40;        // of iterations beside what was found
-constexpr int kBeyond = 4;             // more than are wanted, so that there is a gap
-constexpr int kMostDenseAtAll = 4000;  // rows, where many of their modes are wanted
-constexpr double kNothing = 1e-6;      // of 1/(lambda - shift): of what was taken out
+constexpr double kSoft = 1e-12;       // of the largest: below, eigenvalues are those of rounding
+constexpr double kRigid = 1e-16;      // of the largest: below, a motion as a whole
+constexpr int kMaxRigidVectors = 12;  // more are counted only
+constexpr int kMaxRounds = 40;        // of iterations beside what was found
+constexpr int kBeyond = 4;            // more than are wanted, so that there is a gap
+constexpr int kMaxDenseAtAll = 4000;  // rows, where many of their modes are wanted
+constexpr double kNothing = 1e-6;     // of 1/(lambda - shift): of what was taken out
 
 /// (P - shift)^-1 beside vectors that are taken out: these have the eigenvalue 0.
 class Inverse {
@@ -75,7 +75,7 @@ class ModeFinder {
     if (!(scale_ > 0.0)) {
       return loose();
     }
-    if (size_ <= kMostDenseRows) {
+    if (size_ <= kMaxDenseRows) {
       dense();
     } else {
       sparse();
@@ -87,11 +87,11 @@ class ModeFinder {
  private:
   bool fromBottom() const { return !(window_.from > 0.0); }
   /// True if motions as a whole, and what is as soft, are worked out.
-  bool takesSoft() const { return fromBottom() && soft_ <= kMostRigidVectors; }
+  bool takesSoft() const { return fromBottom() && soft_ <= kMaxRigidVectors; }
 
   /// The eigenpairs of a part on which no load acts.
   EigenPairs loose() {
-    const int count = std::min(size_, kMostRigidVectors);
+    const int count = std::min(size_, kMaxRigidVectors);
     found_.values = Eigen::VectorXd::Zero(fromBottom() ? count : 0);
     found_.vectors = Eigen::MatrixXd::Identity(size_, found_.values.size());
     found_.rigid = static_cast<int>(found_.values.size());
@@ -178,7 +178,7 @@ class ModeFinder {
     const int wanted = std::min(in_window_, window_.most + (takesSoft() ? soft_ : 0));
     if (wanted <= size_ / 4) {
       collect(shift, below, wanted);
-    } else if (size_ <= kMostDenseAtAll) {
+    } else if (size_ <= kMaxDenseAtAll) {
       dense();
     } else {
       throw Exception(std::to_string(wanted) + " modes of " + std::to_string(size_) +
@@ -203,11 +203,11 @@ class ModeFinder {
     }
     if (below == 0) {
       const int negative = inertiaAt(shift).below;
-      for (int round = 0; round < kMostRounds && found_.values.size() < negative; ++round) {
+      for (int round = 0; round < kMaxRounds && found_.values.size() < negative; ++round) {
         iterate(factor, shift, negative - static_cast<int>(found_.values.size()), -1.0);
       }
     }
-    for (int round = 0; round < kMostRounds && wanted > 0; ++round) {
+    for (int round = 0; round < kMaxRounds && wanted > 0; ++round) {
       const int have = static_cast<int>(found_.values.size());
       const int room = size_ - below - have;
       const int missing = isComplete(below, wanted);

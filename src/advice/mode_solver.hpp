@@ -31,6 +31,6 @@ struct EigenPairs {
 /// \throws Exception if some cannot be found
 EigenPairs eigenPairsIn(const ModePart& part, const EigenWindow& window);
 
-constexpr int kMostDenseRows = 300;
+constexpr int kMaxDenseRows = 300;
 
 }  // namespace ergotic::physics

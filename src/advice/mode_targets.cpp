@@ -12,9 +12,9 @@ namespace {
 
 using scene::Scene;
 
-constexpr int kStiffPartials = 8;           // of a stiff string that are told
-constexpr double kFurthest = 100.0;         // cents
-constexpr double kLeastSharedEnergy = 0.3;  // of the kinetic energy
+constexpr int kStiffPartials = 8;         // of a stiff string that are told
+constexpr double kFurthest = 100.0;       // cents
+constexpr double kMinSharedEnergy = 0.3;  // of the kinetic energy
 
 /// A pitch and the modules that should have it.
 struct Asked {
@@ -112,7 +112,7 @@ std::vector<PitchMatch> matchPitches(const Scene& scene,
     for (std::size_t i = 0; i < modes.size(); ++i) {
       const double cents = 1200.0 * std::log2(modes[i].frequency_hz / all[a].pitch.hz);
       if (matches[i].asked < 0 && std::abs(cents) < std::abs(nearest) &&
-          shareIn(all[a], modes[i]) >= kLeastSharedEnergy) {
+          shareIn(all[a], modes[i]) >= kMinSharedEnergy) {
         best = i;
         nearest = cents;
       }

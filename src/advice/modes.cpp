@@ -20,7 +20,7 @@ namespace ergotic::physics {
 namespace {
 
 using scene::Scene;
-constexpr double kLeastShare = 1e-3;  // of a link that is told
+constexpr double kMinShare = 1e-3;  // of a link that is told
 
 /// h^2 w^2 of what swings at a frequency without losses.
 double lambdaOf(double hz, double step_s) {
@@ -93,7 +93,7 @@ class Collector {
   void addRate(int divisor) {
     const ModeNetwork network = modeNetworkOf(network_, rates_, divisor, is_heard_);
     held_ += network.held;
-    guarded_ += network.guarded;
+    energy_stable_ += network.energy_stable;
     relaxing_ += network.relaxing;
     const EigenWindow window{
         window_.from_hz > 0.0 ? lambdaOf(window_.from_hz, network.step_s) : 0.0,
@@ -183,7 +183,7 @@ class Collector {
     for (auto& [link, share] : shares) {
       share.of_pull /= whole.of_pull > 0.0 ? whole.of_pull : 1.0;
       share.of_loss /= whole.of_loss > 0.0 ? whole.of_loss : 1.0;
-      if (std::max(std::abs(share.of_pull), share.of_loss) >= kLeastShare) {
+      if (std::max(std::abs(share.of_pull), share.of_loss) >= kMinShare) {
         told.links.push_back(share);
       }
     }
@@ -255,7 +255,8 @@ class Collector {
 
   void addNotes() {
     note(held_, "to modules of another rate: these are held there, and their own modes told apart");
-    note(guarded_, "with an energy-stable linear part: its frequency is that of the explicit step");
+    note(energy_stable_,
+         "with an energy-stable linear part: its frequency is that of the explicit step");
     note(relaxing_, "that remember: the memory is left out");
     for (int s = 0; s < static_cast<int>(scene_.sections.size()); ++s) {
       if (leavesModesOut(network_, s)) {
@@ -275,7 +276,7 @@ class Collector {
   std::map<int, int> rigid_;  // by section
   SceneModes found_;
   int held_ = 0;
-  int guarded_ = 0;
+  int energy_stable_ = 0;
   int relaxing_ = 0;
 };
 

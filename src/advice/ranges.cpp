@@ -12,7 +12,7 @@
 namespace ergotic::physics {
 namespace {
 constexpr double kRangePrecision = 1e-3;
-constexpr int kMostRangeHalvings = 60;
+constexpr int kMaxRangeHalvings = 60;
 constexpr double kUnbounded = 1e9;  // times the size of a range: nothing ends it
 
 struct Judged {
@@ -95,7 +95,7 @@ class RangeJudge {
     if (!(bad < kUnbounded)) {
       return std::copysign(kInfinity, size);
     }
-    for (int i = 0; i < kMostRangeHalvings && bad - good > kRangePrecision * bad; ++i) {
+    for (int i = 0; i < kMaxRangeHalvings && bad - good > kRangePrecision * bad; ++i) {
       const double middle = 0.5 * (good + bad);
       (holds(from + middle * size) ? good : bad) = middle;
     }

@@ -17,7 +17,7 @@ namespace {
 using scene::Geometry;
 using scene::MatType;
 
-constexpr double kLeastPivot = 1e-13;  // of the largest: what is less is a motion left open
+constexpr double kMinPivot = 1e-13;  // of the largest: what is less is a motion left open
 constexpr double kRounding = 1e-12;
 
 /// Displacement from rest by a hand or an agent at the start, m.
@@ -188,7 +188,7 @@ bool Statics::solve(const Body& body, std::vector<double>& pushed) const {
     return false;
   }
   const Eigen::ArrayXd pivots = factors.vectorD().array().abs();
-  if (!(pivots.minCoeff() > kLeastPivot * pivots.maxCoeff())) {
+  if (!(pivots.minCoeff() > kMinPivot * pivots.maxCoeff())) {
     return false;
   }
   Eigen::Map<Eigen::VectorXd> forces(pushed.data(), rows);

@@ -25,8 +25,8 @@ using Unit = Target::Unit;
 
 /// Audio rates that sound cards have; lower ones leave too little of the sound.
 constexpr double kRates[] = {22050.0, 44100.0, 48000.0, 88200.0, 96000.0, 176400.0, 192000.0};
-constexpr std::size_t kMostTrials = 24;  // settlings of candidates, cheapest first
-constexpr double kCostGrain = 50.0;      // costs within 2 % are alike
+constexpr std::size_t kMaxTrials = 24;  // settlings of candidates, cheapest first
+constexpr double kCostGrain = 50.0;     // costs within 2 % are alike
 
 struct UnitRule {
   const char* names[2];
@@ -141,7 +141,7 @@ class SettingSearch {
                        return std::tuple(!good[0], good[0] ? 0.0 : a.worst, price(a)) <
                               std::tuple(!good[1], good[1] ? 0.0 : b.worst, price(b));
                      });
-    for (std::size_t i = 0; i < std::min(candidates.size(), kMostTrials); ++i) {
+    for (std::size_t i = 0; i < std::min(candidates.size(), kMaxTrials); ++i) {
       std::optional<scene::Scene> scene = applied(candidates[i]);
       if (scene) {
         return proposalOf(candidates[i], std::move(*scene));

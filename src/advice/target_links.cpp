@@ -68,7 +68,7 @@ struct Touch {
   int lia = 0;
   std::string name;
   Scheme scheme = Scheme::kExplicit;  // as the scene has it
-  bool is_guardable = false;
+  bool can_be_energy_stable = false;
   End a;
   End b;
 
@@ -91,7 +91,7 @@ Touch touchOf(const scene::Scene& scene, Networks& networks, int index) {
   return {index,
           lia.name,
           lia.scheme,
-          scene::isGuardable(scene, lia),
+          scene::canBeEnergyStable(scene, lia),
           endAt(scene, networks, lia.a),
           endAt(scene, networks, lia.b)};
 }
@@ -104,20 +104,21 @@ class SchemePart : public TargetPart {
   std::string name() const override { return "link '" + touch_.name + "'"; }
 
   PartOption asItIs(const Rates& rates) const override {
-    const bool guarded =
-        touch_.scheme == Scheme::kGuarded ||
-        (touch_.scheme == Scheme::kAuto && canBeGuarded(rates) && mustBeGuarded(rates));
-    return option(guarded ? Scheme::kGuarded : Scheme::kExplicit, rates);
+    const bool energy_stable =
+        touch_.scheme == Scheme::kEnergyStable ||
+        (touch_.scheme == Scheme::kAuto && canBeEnergyStable(rates) && mustBeEnergyStable(rates));
+    return option(energy_stable ? Scheme::kEnergyStable : Scheme::kExplicit, rates);
   }
 
   PartOption choose(const Rates& rates, double allowed) const override {
     PartOption present = asItIs(rates);
-    if (present.error <= allowed || present.scheme == Scheme::kGuarded || !canBeGuarded(rates)) {
+    if (present.error <= allowed || present.scheme == Scheme::kEnergyStable ||
+        !canBeEnergyStable(rates)) {
       return present;
     }
-    PartOption guarded = option(Scheme::kGuarded, rates);
-    guarded.change = "explicit -> energy_stable";
-    return guarded.error < present.error ? guarded : present;
+    PartOption energy_stable = option(Scheme::kEnergyStable, rates);
+    energy_stable.change = "explicit -> energy_stable";
+    return energy_stable.error < present.error ? energy_stable : present;
   }
 
   void apply(scene::Scene& scene, const PartOption& option) const override {
@@ -128,21 +129,21 @@ class SchemePart : public TargetPart {
 
  protected:
   const Touch& touch() const { return touch_; }
-  virtual bool mustBeGuarded(const Rates& rates) const = 0;
+  virtual bool mustBeEnergyStable(const Rates& rates) const = 0;
   virtual double errorOf(Scheme scheme, const Rates& rates) const = 0;
 
  private:
-  /// True if it may be guarded: not on a slower mass, where the guard is not proven.
-  bool canBeGuarded(const Rates& rates) const {
+  /// True if it may be energy-stable: not on a slower mass, where its passivity is not proven.
+  bool canBeEnergyStable(const Rates& rates) const {
     const bool onto_slow_mass = touch_.crosses(rates) && std::isfinite(touch_.slowEnd(rates).mass);
-    return touch_.is_guardable && !onto_slow_mass;
+    return touch_.can_be_energy_stable && !onto_slow_mass;
   }
   PartOption option(Scheme scheme, const Rates& rates) const {
     PartOption result;
     result.scheme = scheme;
     result.error = errorOf(scheme, rates);
-    result.cost =
-        touch_.fastHz(rates) * (scheme == Scheme::kGuarded ? kGuardedCost : kNonlinearCost);
+    result.cost = touch_.fastHz(rates) *
+                  (scheme == Scheme::kEnergyStable ? kEnergyStableCost : kNonlinearCost);
     return result;
   }
 
@@ -168,7 +169,7 @@ class ContactPart final : public SchemePart {
   }
 
  private:
-  bool mustBeGuarded(const Rates& /*rates*/) const override {
+  bool mustBeEnergyStable(const Rates& /*rates*/) const override {
     return exponent_ > 1.0 || stiffness_ / touch().lightest() > 0.0;
   }
   double errorOf(Scheme scheme, const Rates& rates) const override {
@@ -201,7 +202,7 @@ class BowPart final : public SchemePart {
   std::string figure() const override { return "pitch of stick and slip"; }
 
  private:
-  bool mustBeGuarded(const Rates& rates) const override {
+  bool mustBeEnergyStable(const Rates& rates) const override {
     const double unit = 1.0 / (touch().lightest() * touch().fastHz(rates));
     return unit * slopes_.rise >= kExplicitFriction || unit * slopes_.fall >= kExplicitFalling;
   }

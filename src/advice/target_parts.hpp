@@ -14,7 +14,7 @@ namespace ergotic::physics {
 
 // What one step costs beside that of a module or linear link, measured (docs/speed-accuracy.csv).
 constexpr double kNonlinearCost = 20.0;  // explicit
-constexpr double kGuardedCost = 100.0;
+constexpr double kEnergyStableCost = 100.0;
 constexpr double kChapletCost = 4.0;
 constexpr double kDoubleCost = 2.0;  // half as many fit into a vector
 

@@ -16,9 +16,9 @@ namespace {
 
 using scene::StringCut;
 
-constexpr int kMostMasses = 1000;  // of a string that is proposed
-constexpr int kMostCoarse = 80;
-constexpr int kMostModes = 300;
+constexpr int kMaxMasses = 1000;  // of a string that is proposed
+constexpr int kMaxCoarse = 80;
+constexpr int kMaxModes = 300;
 
 double rateOf(const scene::Section& section, const Rates& rates) {
   return rates.audio_hz / divisorOf(section, rates);
@@ -94,13 +94,13 @@ class StringPart final : public TargetPart {
       return is_good;
     };
     // More masses are better until the step cannot carry them; the first that do are the cheapest.
-    for (int masses = kJudgedPartials; masses <= kMostMasses; ++masses) {
+    for (int masses = kJudgedPartials; masses <= kMaxMasses; ++masses) {
       const StringCut cut{masses, false};
       if (consider(cut) || !std::isfinite(errorOf(cut, rateOf(section_, rates)))) {
         break;
       }
     }
-    for (int masses = kJudgedPartials; can_be_coarse_ && masses <= kMostCoarse; ++masses) {
+    for (int masses = kJudgedPartials; can_be_coarse_ && masses <= kMaxCoarse; ++masses) {
       if (consider({masses, true})) {
         break;
       }
@@ -151,7 +151,7 @@ class ModesPart final : public TargetPart {
 
 /// The tenth of the modes of a section that move, rad/s; 0: nothing to judge.
 double tenthMode(const Network& network, int section) {
-  std::vector<double> squares = LinearNetwork(network, section).modes(kMostModes);
+  std::vector<double> squares = LinearNetwork(network, section).modes(kMaxModes);
   const double still = squares.empty() ? 0.0 : 1e-12 * squares.back();
   squares.erase(std::remove_if(squares.begin(), squares.end(),
                                [still](double square) { return square <= still; }),

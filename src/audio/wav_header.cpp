@@ -11,10 +11,10 @@ constexpr unsigned kPcm = 1;
 constexpr unsigned kFloatTag = 3;
 constexpr unsigned kExtensible = 0xFFFE;
 constexpr std::uint64_t kUnknown = 0xFFFFFFFF;  // what 32 bits cannot say
-constexpr int kMostPlainChannels = 2;
+constexpr int kMaxPlainChannels = 2;
 constexpr int kFormBytes = 12;
 constexpr int kChunkHead = 8;
-constexpr int kMostChunks = 1000;  // before the samples
+constexpr int kMaxChunks = 1000;  // before the samples
 constexpr std::size_t kDs64Bytes = 28;
 /// End of the identifiers of extensible formats, after the tag.
 constexpr char kGuidEnd[] = "\x00\x00\x00\x00\x10\x00\x80\x00\x00\xAA\x00\x38\x9B\x71";
@@ -47,7 +47,7 @@ void putChunk(std::string& bytes, const char* name, const std::string& content) 
 }
 
 std::string formatOf(const WavShape& shape) {
-  const bool is_plain = shape.channels <= kMostPlainChannels;
+  const bool is_plain = shape.channels <= kMaxPlainChannels;
   const unsigned tag = shape.is_float ? kFloatTag : kPcm;
   const auto bits = static_cast<unsigned>(8 * shape.sample_bytes);
   const auto frame = static_cast<unsigned>(shape.frameBytes());
@@ -78,9 +78,9 @@ struct Chunk {
 };
 
 std::optional<Chunk> chunkAt(std::istream& file, std::int64_t at) {
-  constexpr std::size_t kMost = 64;
+  constexpr std::size_t kMax = 64;
   constexpr std::size_t kHead = kChunkHead;
-  std::string bytes(kHead + kMost, '\0');
+  std::string bytes(kHead + kMax, '\0');
   file.clear();
   file.seekg(at);
   file.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
@@ -171,7 +171,7 @@ std::optional<UnfinishedWav> findUnfinished(std::istream& file) {
   std::optional<WavShape> shape;
   std::int64_t at = kFormBytes;
   std::optional<Chunk> chunk = chunkAt(file, at);
-  for (int n = 0; n < kMostChunks && chunk && chunk->name != "data"; ++n) {
+  for (int n = 0; n < kMaxChunks && chunk && chunk->name != "data"; ++n) {
     if (chunk->name == "fmt ") {
       shape = shapeOf(chunk->start);
     } else if (chunk->name == "ds64" && chunk->start.size() >= 16) {

@@ -107,14 +107,14 @@ void check(const ergotic::Event& message, const std::string& path) {
 
 void check(const ergotic::Hold& message, const std::string& path) {
   const std::string name = named(path, "hold", message.tick);
-  constexpr double kMost = 1e12;
+  constexpr double kMax = 1e12;
   requireTick(name, message.tick);
   requireWithin(name, "its hand", message.hand, 0, physics::kMaxTouches - 1);
   requireWithin(name, "its module", message.module, physics::Touch::kNothing, 1e9);
   requireWithin(name, "its ticks_left", message.ticks_left, 0, station::kMaxHoldTicks);
-  requireWithin(name, "its stiffness", message.stiffness, 0.0, kMost);
-  requireWithin(name, "its damping", message.damping, 0.0, kMost);
-  requireWithin(name, "its most_force", message.most_force, 0.0, kMost);
+  requireWithin(name, "its stiffness", message.stiffness, 0.0, kMax);
+  requireWithin(name, "its damping", message.damping, 0.0, kMax);
+  requireWithin(name, "its most_force", message.most_force, 0.0, kMax);
   requireFinite(name, "coordinate", {message.at.begin(), message.at.end()}, message.at.size());
   requireFinite(name, "coordinate of the goal", {message.goal.begin(), message.goal.end()},
                 message.goal.size());

@@ -11,7 +11,7 @@ namespace {
 
 /// Folders between the library and what has the models: an install space with lib, the sources with
 /// devel/lib, or with a build in a folder such as build/asan before that.
-constexpr int kMostFoldersUp = 5;
+constexpr int kMaxFoldersUp = 5;
 
 std::string findShippedModels() {
   Dl_info library{};
@@ -20,7 +20,7 @@ std::string findShippedModels() {
   }
   std::error_code failure;
   std::filesystem::path folder = std::filesystem::canonical(library.dli_fname, failure);
-  for (int up = 0; up < kMostFoldersUp && !folder.empty(); ++up) {
+  for (int up = 0; up < kMaxFoldersUp && !folder.empty(); ++up) {
     folder = folder.parent_path();
     for (const char* const models : {"share/ergotic/models", "models"}) {
       if (std::filesystem::is_directory(folder / models / "lib", failure)) {

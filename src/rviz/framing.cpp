@@ -13,11 +13,11 @@ constexpr double kNearest = 0.1;  // m
 }  // namespace
 
 Look lookOf(const Shot& shot, Look look) {
-  constexpr double kMostPitch = 1.55;  // rad: one that looks straight down would have no yaw
+  constexpr double kMaxPitch = 1.55;  // rad: one that looks straight down would have no yaw
   const Eigen::Vector3d out = shot.from - shot.at;
   const double level = std::hypot(out.x(), out.y());
   look.yaw = level > 0.0 ? std::atan2(out.y(), out.x()) : look.yaw;
-  look.pitch = std::clamp(std::atan2(out.z(), level), -kMostPitch, kMostPitch);
+  look.pitch = std::clamp(std::atan2(out.z(), level), -kMaxPitch, kMaxPitch);
   return look;
 }
 

@@ -15,11 +15,11 @@ namespace ergotic::panel {
 namespace {
 
 constexpr std::size_t kAxes = 3;
-constexpr double kMostOfSliceM = 0.1;  // what a hand may want, see HandTargets
-constexpr double kMostOfCoordinateM = 1.0;
-constexpr double kMostOfModuleM = 100.0;  // see HoldTarget
-constexpr double kLeastCameraM = 1e-3;    // from what it looks at
-constexpr double kLeastSine = 0.1;  // an axis that points at the eye has no place under the mouse
+constexpr double kMaxOfSliceM = 0.1;  // what a hand may want, see HandTargets
+constexpr double kMaxOfCoordinateM = 1.0;
+constexpr double kMaxOfModuleM = 100.0;  // see HoldTarget
+constexpr double kMinCameraM = 1e-3;     // from what it looks at
+constexpr double kMinSine = 0.1;  // an axis that points at the eye has no place under the mouse
 
 bool isWhole(const ModelStructure& structure) {
   const std::size_t sections = structure.section_poses.size();
@@ -139,7 +139,7 @@ std::vector<Eigen::Vector3d> HandleSet::camera() const {
     camera.emplace_back(place.x, place.y, place.z);
   }
   const bool is_whole = camera.size() == 2 && camera[0].allFinite() && camera[1].allFinite() &&
-                        (camera[0] - camera[1]).norm() > kLeastCameraM;
+                        (camera[0] - camera[1]).norm() > kMinCameraM;
   return is_whole ? camera : std::vector<Eigen::Vector3d>();
 }
 
@@ -246,7 +246,7 @@ Drag::Drag(const Handle& handle, const Ray& ray, const Eigen::Vector3d& looks)
 Eigen::Vector3d Drag::pointOf(const Ray& ray) const {
   if (handle_.axes() != 1) {
     const double facing = ray.direction.dot(looks_);
-    return facing < kLeastSine ? last_ : ray.at((grabbed_ - ray.origin).dot(looks_) / facing);
+    return facing < kMinSine ? last_ : ray.at((grabbed_ - ray.origin).dot(looks_) / facing);
   }
   const auto axis_index = std::find_if(handle_.indices.begin(), handle_.indices.end(),
                                        [](int index) { return index >= 0; }) -
@@ -254,7 +254,7 @@ Eigen::Vector3d Drag::pointOf(const Ray& ray) const {
   const Eigen::Vector3d axis = handle_.drawing.linear().col(axis_index).normalized();
   const double cosine = axis.dot(ray.direction);
   const double sine_square = 1.0 - cosine * cosine;
-  if (sine_square < kLeastSine * kLeastSine) {
+  if (sine_square < kMinSine * kMinSine) {
     return last_;
   }
   const Eigen::Vector3d to_handle = grabbed_ - ray.origin;
@@ -286,7 +286,7 @@ HandTargets Grab::targets() const {
       if (handle.indices[k] >= 0) {
         const double target =
             handle.scales[k] * displaced[static_cast<Eigen::Index>(k)] + handle.offsets[k];
-        const double most = taken_.end_effector.empty() ? kMostOfSliceM : kMostOfCoordinateM;
+        const double most = taken_.end_effector.empty() ? kMaxOfSliceM : kMaxOfCoordinateM;
         wanted.indices.push_back(static_cast<std::uint32_t>(handle.indices[k]));
         wanted.targets.push_back(std::clamp(target, -most, most));
       }
@@ -300,7 +300,7 @@ HoldTarget Grab::target() const {
   wanted.module = taken_.module;
   for (std::size_t k = 0; k < kAxes; ++k) {
     wanted.target[k] = std::clamp(drag_.displacement()[static_cast<Eigen::Index>(k)],
-                                  -kMostOfModuleM, kMostOfModuleM);
+                                  -kMaxOfModuleM, kMaxOfModuleM);
   }
   return wanted;
 }

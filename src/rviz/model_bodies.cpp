@@ -10,7 +10,7 @@ namespace ergotic::panel {
 namespace {
 
 constexpr float kBodyRadius = 0.008F;  // of the size of the model
-constexpr float kLeastSizeM = 0.01F;
+constexpr float kMinSizeM = 0.01F;
 
 /// As share of kBodyRadius.
 float radiusOf(ModuleLook look) {
@@ -57,7 +57,7 @@ std::vector<DrawnBody> bodiesOf(const ModelStructure& structure,
                                 const ModelShape& shape,
                                 float size_m) {
   std::vector<DrawnBody> bodies;
-  if (shape.bodies.size() > kMostBodies) {
+  if (shape.bodies.size() > kMaxBodies) {
     return bodies;
   }
   const std::vector<HandBody> hands = handsOf(structure, shape);
@@ -65,7 +65,7 @@ std::vector<DrawnBody> bodiesOf(const ModelStructure& structure,
     const std::uint32_t module = shape.bodies[b];
     const ModuleLook look = shape.looks[module];
     bodies.push_back({module, &solidOf(look, hands[b].form),
-                      radiusOf(look) * kBodyRadius * std::max(size_m, kLeastSizeM)});
+                      radiusOf(look) * kBodyRadius * std::max(size_m, kMinSizeM)});
     if (hands[b].form != HandForm::kNone) {
       bodies.back().turn = turnOf(hands[b]);
     }

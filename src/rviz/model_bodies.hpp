@@ -13,7 +13,7 @@
 
 namespace ergotic::panel {
 
-constexpr std::size_t kMostBodies = 600;  ///< above it bodies are points: each vertex has its price
+constexpr std::size_t kMaxBodies = 600;  ///< above it bodies are points: each vertex has its price
 
 /// How a module by itself is drawn, around its place.
 struct DrawnBody {

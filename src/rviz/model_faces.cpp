@@ -11,10 +11,10 @@
 namespace ergotic::panel {
 namespace {
 
-constexpr float kMostCosine = 0.6F;           // of a corner of a mesh with four
-constexpr float kMostTriangleCosine = 0.95F;  // of a corner of a triangle
-constexpr float kLeastAgreement = 0.5F;       // of the normals at the corners: about flat
-constexpr float kInside = 0.01F;              // of the length of a side, from it
+constexpr float kMaxCosine = 0.6F;           // of a corner of a mesh with four
+constexpr float kMaxTriangleCosine = 0.95F;  // of a corner of a triangle
+constexpr float kMinAgreement = 0.5F;        // of the normals at the corners: about flat
+constexpr float kInside = 0.01F;             // of the length of a side, from it
 constexpr int kSidesOfLink = 2;
 
 struct Mesh {
@@ -46,7 +46,7 @@ class FaceFinder {
       forEachPair(a, [&](std::uint32_t b, std::uint32_t c) {
         for (const std::uint32_t d : graph_.of(b)) {
           if (d > a && d != c && graph_.areNeighbours(c, d)) {
-            addIfFlat({{a, b, d, c}, 4}, kMostCosine, found);
+            addIfFlat({{a, b, d, c}, 4}, kMaxCosine, found);
           }
         }
       });
@@ -58,7 +58,7 @@ class FaceFinder {
     for (std::uint32_t a = 0; a < graph_.modules(); ++a) {
       forEachPair(a, [&](std::uint32_t b, std::uint32_t c) {
         if (graph_.areNeighbours(b, c) && !(is_in_quad_[a] && is_in_quad_[b] && is_in_quad_[c])) {
-          addIfFlat({{a, b, c, c}, 3}, kMostTriangleCosine, found);
+          addIfFlat({{a, b, c, c}, 3}, kMaxTriangleCosine, found);
         }
       });
     }
@@ -86,7 +86,7 @@ class FaceFinder {
       if (k == 0) {
         first_normal = normal;
       }
-      if (!(cosine <= most_cosine) || !(normal.dot(first_normal) >= kLeastAgreement)) {
+      if (!(cosine <= most_cosine) || !(normal.dot(first_normal) >= kMinAgreement)) {
         return;
       }
       mesh.skew = std::max(mesh.skew, cosine);
@@ -160,7 +160,7 @@ class FaceFinder {
     for (std::uint32_t a = 0; a < graph_.modules(); ++a) {
       const ModuleIndices rim = rimOf(a);
       if (meshes[a] == 3 && rim.size() == 2) {
-        addIfFlat({{a, rim[0], rim[1], rim[1]}, 3}, kMostTriangleCosine, fillings);
+        addIfFlat({{a, rim[0], rim[1], rim[1]}, 3}, kMaxTriangleCosine, fillings);
       }
     }
     accept(std::move(fillings));

@@ -12,10 +12,10 @@
 namespace ergotic::panel {
 namespace {
 
-constexpr std::size_t kMostDimensions = 3;
+constexpr std::size_t kMaxDimensions = 3;
 constexpr float kDetour = 1.001F;  // of a way over a module that lies on the straight line
 constexpr float kAskew = 0.05F;    // of two links that are about parallel and of one length
-constexpr std::size_t kMostNeighbours = 16;  // of a module of a body; a hub has more
+constexpr std::size_t kMaxNeighbours = 16;  // of a module of a body; a hub has more
 const std::string kOutlineWord = ".outline.";
 
 bool allBelow(const ModuleIndices& indices, std::size_t limit) {
@@ -27,7 +27,7 @@ bool haveSectionsFrames(const ModelStructure& structure) {
   const auto& dimensions = structure.section_dimensions;
   return dimensions.size() == structure.section_poses.size() &&
          std::all_of(dimensions.begin(), dimensions.end(), [](std::uint8_t dimension) {
-           return dimension >= 1 && dimension <= kMostDimensions;
+           return dimension >= 1 && dimension <= kMaxDimensions;
          });
 }
 
@@ -64,7 +64,7 @@ bool isConsistent(const ModelStructure& structure) {
   const std::size_t modules = structure.module_sections.size();
   return haveSectionsFrames(structure) && structure.module_names.size() == modules &&
          structure.module_types.size() == modules &&
-         structure.rest_positions.size() == kMostDimensions * modules &&
+         structure.rest_positions.size() == kMaxDimensions * modules &&
          structure.links.size() % 2 == 0 && allBelow(structure.links, modules) &&
          allBelow(structure.module_sections, structure.section_poses.size()) &&
          areStringsInside(structure);
@@ -100,7 +100,7 @@ std::vector<bool> modesOfOutlines(const ModelStructure& structure) {
 }
 
 Eigen::Vector3f restOf(const ModelStructure& structure, std::size_t module) {
-  return Eigen::Map<const Eigen::Vector3f>(&structure.rest_positions[kMostDimensions * module]);
+  return Eigen::Map<const Eigen::Vector3f>(&structure.rest_positions[kMaxDimensions * module]);
 }
 
 LinkGraph::LinkGraph(const ModelStructure& structure, const std::function<bool(std::size_t)>& joins)
@@ -127,7 +127,7 @@ void LinkGraph::sortOut() {
   for (ModuleIndices& list : neighbours_) {
     std::sort(list.begin(), list.end());
     list.erase(std::unique(list.begin(), list.end()), list.end());
-    if (list.size() > kMostNeighbours) {
+    if (list.size() > kMaxNeighbours) {
       list.clear();
     }
   }

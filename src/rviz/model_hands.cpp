@@ -12,8 +12,8 @@ namespace ergotic::panel {
 namespace {
 
 constexpr float kBeside = 0.03F;  // of the size of the model: nearer is in place
-constexpr float kLeastBesideM = 1e-3F;
-constexpr float kLeastLengthM = 1e-6F;
+constexpr float kMinBesideM = 1e-3F;
+constexpr float kMinLengthM = 1e-6F;
 
 /// A link as one of its modules sees it.
 struct LinkEnd {
@@ -109,7 +109,7 @@ class FormFinder {
     if (movesAlongX(structure_, module)) {
       const Eigen::Vector3f axis = axisOf(structure_, module);
       body.towards = (there - here).dot(axis) < 0.0F ? Eigen::Vector3f(-axis) : axis;
-    } else if ((there - here).norm() > kLeastLengthM) {
+    } else if ((there - here).norm() > kMinLengthM) {
       body.towards = (there - here).normalized();
     }
     body.along = body.towards.unitOrthogonal();
@@ -122,7 +122,7 @@ class FormFinder {
     for (const LinkEnd& end : ends_[touched]) {
       const Eigen::Vector3f way = restOf(structure_, end.other) - restOf(structure_, touched);
       const Eigen::Vector3f across = way - way.dot(body.towards) * body.towards;
-      if (isOfPart(looks_[end.other]) && across.norm() > kLeastLengthM) {
+      if (isOfPart(looks_[end.other]) && across.norm() > kMinLengthM) {
         body.along = across.normalized();
         return;
       }
@@ -148,7 +148,7 @@ class Placing {
         filled.extend(restOf(structure_, i));
       }
     }
-    beside_ = filled.isEmpty() ? 0.0F : std::max(kBeside * filled.diagonal().norm(), kLeastBesideM);
+    beside_ = filled.isEmpty() ? 0.0F : std::max(kBeside * filled.diagonal().norm(), kMinBesideM);
   }
 
   /// Places the hands: first those that touch the parts, then those that move these, and so on.

@@ -17,7 +17,7 @@ constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
 
 // Shares of the size of the model.
 constexpr float kTubeRadius = 0.0022F;
-constexpr float kLeastSizeM = 0.01F;
+constexpr float kMinSizeM = 0.01F;
 
 constexpr float kBarWidthOfLength = 0.14F;
 constexpr float kBarWidthOfDistance = 0.7F;  // to the next bar
@@ -237,7 +237,7 @@ void ModelMesh::measure(const ModelMotion& motion, const ModelShape& shape) {
   }
   if (!filled.isEmpty()) {
     middle_ = filled.center();
-    size_ = std::max(filled.diagonal().norm(), kLeastSizeM);
+    size_ = std::max(filled.diagonal().norm(), kMinSizeM);
   }
 }
 
@@ -266,7 +266,7 @@ void ModelMesh::addTubes(const ModelShape& shape, float thickness) {
   for (const ModuleIndices& row : shape.strings) {
     modules += row.size();
   }
-  if (modules > kMostTubeModules) {
+  if (modules > kMaxTubeModules) {
     return;  // they are lines
   }
   for (const ModuleIndices& row : shape.strings) {

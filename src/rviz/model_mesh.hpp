@@ -34,7 +34,7 @@ struct MeshView {
 class ModelMesh {
  public:
   /// Above it strings are lines: each vertex has its price.
-  static constexpr std::size_t kMostTubeModules = 2000;
+  static constexpr std::size_t kMaxTubeModules = 2000;
 
   ModelMesh() = default;
   /// \param motion  where the modules rest \param thickness  of strings and bodies, 1: as usual

@@ -14,11 +14,11 @@ namespace {
 constexpr double kLongestHandOverS = 5.0;
 constexpr float kHoldS = 0.12F;  // in which what glows fades to 1/e, so that it does not flicker
 constexpr float kReferenceS = 4.0F;  // the same for what it is compared with
-constexpr float kLeastElapsedS = 1e-3F;
-constexpr float kMostElapsedS = 1.0F;
-constexpr float kLeastM = 2e-6F;       // below which nothing is seen to glow
-constexpr float kLeastStrain = 1e-4F;  // of a link
-constexpr float kLeastSpeed = 6e-5F;   // m/s, the same at 30 states per second
+constexpr float kMinElapsedS = 1e-3F;
+constexpr float kMaxElapsedS = 1.0F;
+constexpr float kMinM = 2e-6F;       // below which nothing is seen to glow
+constexpr float kMinStrain = 1e-4F;  // of a link
+constexpr float kMinSpeed = 6e-5F;   // m/s, the same at 30 states per second
 
 /// Kinds of modules for the scale of the glow. Each kind has a scale of its own: a hammer that
 /// flies would outshine the string that it has struck, and the string the soundboard.
@@ -46,13 +46,13 @@ std::size_t coordinatesOf(const ModelStructure& structure) {
 float leastOf(GlowBy quantity) {
   switch (quantity) {
     case GlowBy::kSpeed:
-      return kLeastSpeed;
+      return kMinSpeed;
     case GlowBy::kEnergy:
-      return kLeastSpeed * kLeastSpeed;
+      return kMinSpeed * kMinSpeed;
     case GlowBy::kTension:
-      return kLeastStrain;
+      return kMinStrain;
     default:
-      return kLeastM;
+      return kMinM;
   }
 }
 
@@ -131,7 +131,7 @@ void ModelMotion::show(const ModelState& state) {
     before_ = now_;  // it was not seen to move, or a recording begins anew
   }
   place();
-  measure(std::clamp(static_cast<float>(stamp_s - previous_s), kLeastElapsedS, kMostElapsedS));
+  measure(std::clamp(static_cast<float>(stamp_s - previous_s), kMinElapsedS, kMaxElapsedS));
 }
 
 void ModelMotion::place() {

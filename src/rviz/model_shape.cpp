@@ -10,8 +10,7 @@
 namespace ergotic::panel {
 namespace {
 
-constexpr std::size_t kLeastOfRow =
-    4;  // modules of what is a string or a bar, and not single masses
+constexpr std::size_t kMinOfRow = 4;  // modules of what is a string or a bar, and not single masses
 constexpr int kNoPart = -1;
 
 class ShapeFinder {
@@ -93,7 +92,7 @@ class ShapeFinder {
       }
       next = graph.of(next)[graph.of(next)[0] == before ? 1 : 0];
     }
-    if (row.size() >= kLeastOfRow) {
+    if (row.size() >= kMinOfRow) {
       const bool is_bar = is_outline_[end] || (graph.isBridged(row[1]) && !isSpanned(row));
       addRow(std::move(row), is_bar ? ModuleLook::kBar : ModuleLook::kString);
     }

@@ -14,10 +14,10 @@ namespace {
 
 constexpr int kScopeHeight = 96;
 constexpr int kGap = 4;  // pixels between the two pictures
-constexpr std::size_t kLeastFrames = 16;
-constexpr std::size_t kMostChannels = 4;  // more would hide each other
-constexpr float kLeastPeak = 1e-4F;       // of full scale; what is softer is drawn small
-const std::array<QColor, kMostChannels> kColours = {
+constexpr std::size_t kMinFrames = 16;
+constexpr std::size_t kMaxChannels = 4;  // more would hide each other
+constexpr float kMinPeak = 1e-4F;        // of full scale; what is softer is drawn small
+const std::array<QColor, kMaxChannels> kColours = {
     QColor(0x2f, 0x9e, 0x5b), QColor(0xd9, 0x7a, 0x1e), QColor(0x28, 0x74, 0xc8),
     QColor(0xa0, 0x55, 0xb5)};
 
@@ -49,7 +49,7 @@ std::vector<float> ScopeWidget::channelOf(std::size_t channel) const {
 void ScopeWidget::paintEvent(QPaintEvent* /*event*/) {
   QPainter painter(this);
   painter.fillRect(rect(), palette().color(QPalette::Base));
-  if (frames_ < kLeastFrames) {
+  if (frames_ < kMinFrames) {
     painter.setPen(palette().color(QPalette::Disabled, QPalette::Text));
     painter.drawText(rect(), Qt::AlignCenter, "No sound is seen.");
     return;
@@ -67,8 +67,8 @@ void ScopeWidget::paintWaves(QPainter& painter, const QRect& box) const {
   painter.drawLine(QPointF(box.left(), middle), QPointF(box.right(), middle));
   const std::size_t shown = frames_ / 2;
   const std::size_t begin = beginOfWave(channelOf(0), shown);
-  const std::size_t channels = std::min(sound_->channels.size(), kMostChannels);
-  float peak = kLeastPeak;
+  const std::size_t channels = std::min(sound_->channels.size(), kMaxChannels);
+  float peak = kMinPeak;
   for (std::size_t i = 0; i < channels * frames_; ++i) {
     peak = std::max(peak, std::abs(sound_->samples[i]));
   }
@@ -91,7 +91,7 @@ void ScopeWidget::paintSpectra(QPainter& painter, const QRect& box) const {
     const double x = box.left() + SpectrumScale::shareOf(hz) * box.width();
     painter.drawLine(QPointF(x, box.top()), QPointF(x, box.bottom()));
   }
-  for (std::size_t c = std::min(sound_->channels.size(), kMostChannels); c-- > 0;) {
+  for (std::size_t c = std::min(sound_->channels.size(), kMaxChannels); c-- > 0;) {
     QPolygonF line;
     for (const double level : columnsOf(spectrumOf(channelOf(c)), sound_->rate, box.width())) {
       const double share = std::min(level / SpectrumScale::kLowestDb, 1.0);

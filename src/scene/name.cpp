@@ -11,7 +11,7 @@
 namespace ergotic::scene {
 namespace {
 
-constexpr std::size_t kMostDigits = 24;  // two numbers and a dot
+constexpr std::size_t kMaxDigits = 24;  // two numbers and a dot
 
 /// FNV-1a: can be carried on behind a text.
 constexpr std::uint32_t kHashStart = 2166136261U;
@@ -88,23 +88,23 @@ std::string_view Name::stem() const noexcept {
 std::string_view Name::digits(char* buffer) const noexcept {
   char* end = buffer;
   if (first_ >= 0) {
-    end = std::to_chars(end, buffer + kMostDigits, first_).ptr;
+    end = std::to_chars(end, buffer + kMaxDigits, first_).ptr;
   }
   if (second_ >= 0) {
     *end++ = '.';
-    end = std::to_chars(end, buffer + kMostDigits, second_).ptr;
+    end = std::to_chars(end, buffer + kMaxDigits, second_).ptr;
   }
   return {buffer, static_cast<std::size_t>(end - buffer)};
 }
 
 std::string Name::str() const {
-  char buffer[kMostDigits];
+  char buffer[kMaxDigits];
   std::string text(stem());
   return text.append(digits(buffer));
 }
 
 std::uint32_t Name::hash() const noexcept {
-  char buffer[kMostDigits];
+  char buffer[kMaxDigits];
   return hashOn(stem_ == nullptr ? kHashStart : stem_->hash, digits(buffer));
 }
 
@@ -113,7 +113,7 @@ std::uint32_t Name::hashOf(std::string_view text) noexcept {
 }
 
 bool Name::isText(std::string_view text) const noexcept {
-  char buffer[kMostDigits];
+  char buffer[kMaxDigits];
   const std::string_view front = stem();
   return text.substr(0, front.size()) == front &&
          text.substr(std::min(front.size(), text.size())) == digits(buffer);
@@ -123,11 +123,11 @@ bool operator==(const Name& a, const Name& b) noexcept {
   if (a.stem_ == b.stem_) {
     return a.first_ == b.first_ && a.second_ == b.second_;
   }
-  char buffer[kMostDigits];
+  char buffer[kMaxDigits];
   const std::string_view front = b.stem();
   const std::string_view back = b.digits(buffer);
   // Different stems may still spell one text: "s." with 7, and "s.7".
-  char whole[kMostDigits];
+  char whole[kMaxDigits];
   const std::string_view own = a.stem();
   const std::string_view tail = a.digits(whole);
   if (own.size() + tail.size() != front.size() + back.size()) {

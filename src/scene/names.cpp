@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::size_t kLongestQuote = 48;
 constexpr std::size_t kLongestCompared = 64;  // bounds the cost of a suggestion
-constexpr std::size_t kMostListed = 16;
+constexpr std::size_t kMaxListed = 16;
 constexpr std::size_t kFewestSlots = 16;
 
 /// Letters to add, drop or replace to get from one word to the other (Levenshtein).
@@ -120,7 +120,7 @@ std::string suggestion(const std::string& word, const std::vector<std::string>& 
   if (!best.empty()) {
     return "; did you mean " + quoted(best) + "?";
   }
-  if (known.empty() || known.size() > kMostListed) {
+  if (known.empty() || known.size() > kMaxListed) {
     return "";
   }
   std::string list = "; known: ";

@@ -10,14 +10,15 @@
 namespace ergotic::station {
 namespace {
 
-constexpr std::size_t kMostWarnings = 5;  // links named; a generator makes many
+constexpr std::size_t kMaxWarnings = 5;  // links named; a generator makes many
 
-/// Modules by their guarded links, which share what they may spend, and how far a force moves each.
+/// Modules by their energy-stable links, which share what they may spend, and how far a force moves
+/// each.
 class Mobility {
  public:
   explicit Mobility(const scene::Scene& scene) : scene_(scene), links_(scene.mats.size(), 0.0) {
     for (const scene::Lia& lia : scene.lias) {
-      if (lia.scheme == scene::Scheme::kGuarded) {
+      if (lia.scheme == scene::Scheme::kEnergyStable) {
         for (const int end : {lia.a, lia.b}) {
           visit(end, 1.0, [this](std::size_t mat, double /*weight*/) { links_[mat] += 1.0; });
         }
@@ -25,7 +26,7 @@ class Mobility {
     }
   }
 
-  /// 1/kg, as if all guarded links of a module pushed at once.
+  /// 1/kg, as if all energy-stable links of a module pushed at once.
   double of(int end) const {
     double mobility = 0.0;
     visit(end, 1.0, [&](std::size_t mat, double weight) {
@@ -63,13 +64,13 @@ class Mobility {
   }
 
   const scene::Scene& scene_;
-  std::vector<double> links_;  // [mats] that are guarded
+  std::vector<double> links_;  // [mats] that are energy-stable
 };
 
 std::string warningOf(const scene::Scene& scene,
                       const physics::Rates& rates,
-                      const physics::GuardReport& guard) {
-  const scene::Lia& lia = scene.lias[static_cast<std::size_t>(guard.lia)];
+                      const physics::TankReport& tank) {
+  const scene::Lia& lia = scene.lias[static_cast<std::size_t>(tank.lia)];
   const double stiffness = scene.valueOf(lia.stiffness);
   const bool is_linear = lia.type == scene::LiaType::kContact ||
                          lia.type == scene::LiaType::kSpringDamper;  // 'stiffness' is a slope
@@ -77,8 +78,8 @@ std::string warningOf(const scene::Scene& scene,
   std::ostringstream text;
   text.precision(2);
   text << scene.file << ':' << lia.place.line << ':' << lia.place.column << ": warning: link '"
-       << lia.name << "': its force was cut in " << 100.0 * clippedShare(guard) << " % of "
-       << guard.active << " steps so that it makes no energy";
+       << lia.name << "': its force was cut in " << 100.0 * clippedShare(tank) << " % of "
+       << tank.active << " steps so that it makes no energy";
   if (!is_linear) {
     text << ": where it is pressed most it is too steep for these masses and this rate, or its "
             "damping takes too much. Lower its 'stiffness' or 'damping', raise the rate, or let "
@@ -96,13 +97,13 @@ std::string warningOf(const scene::Scene& scene,
 
 }  // namespace
 
-double clippedShare(const physics::GuardReport& guard) {
-  return guard.active == 0 ? 0.0
-                           : static_cast<double>(guard.clipped) / static_cast<double>(guard.active);
+double clippedShare(const physics::TankReport& tank) {
+  return tank.active == 0 ? 0.0
+                          : static_cast<double>(tank.clipped) / static_cast<double>(tank.active);
 }
 
-bool isCutTooOften(const physics::GuardReport& guard) {
-  return guard.active >= kMinActiveSteps && clippedShare(guard) > kMaxClippedShare;
+bool isCutTooOften(const physics::TankReport& tank) {
+  return tank.active >= kMinActiveSteps && clippedShare(tank) > kMaxClippedShare;
 }
 
 double mostStiffness(const scene::Scene& scene,
@@ -117,19 +118,19 @@ double mostStiffness(const scene::Scene& scene,
   return 1.0 / (step * step * (mobility.of(lia.a) + mobility.of(lia.b)));
 }
 
-std::vector<std::string> guardWarnings(const scene::Scene& scene,
-                                       const physics::Rates& rates,
-                                       const std::vector<physics::GuardReport>& guards) {
-  std::vector<physics::GuardReport> cut;
-  std::copy_if(guards.begin(), guards.end(), std::back_inserter(cut), isCutTooOften);
+std::vector<std::string> tankWarnings(const scene::Scene& scene,
+                                      const physics::Rates& rates,
+                                      const std::vector<physics::TankReport>& tanks) {
+  std::vector<physics::TankReport> cut;
+  std::copy_if(tanks.begin(), tanks.end(), std::back_inserter(cut), isCutTooOften);
   std::sort(cut.begin(), cut.end(),
             [](const auto& a, const auto& b) { return clippedShare(a) > clippedShare(b); });
   std::vector<std::string> warnings;
-  for (std::size_t g = 0; g < std::min(cut.size(), kMostWarnings); ++g) {
+  for (std::size_t g = 0; g < std::min(cut.size(), kMaxWarnings); ++g) {
     warnings.push_back(warningOf(scene, rates, cut[g]));
   }
-  if (cut.size() > kMostWarnings) {
-    warnings.push_back(scene.file + ": warning: and " + std::to_string(cut.size() - kMostWarnings) +
+  if (cut.size() > kMaxWarnings) {
+    warnings.push_back(scene.file + ": warning: and " + std::to_string(cut.size() - kMaxWarnings) +
                        " more energy-stable links were cut as often");
   }
   return warnings;

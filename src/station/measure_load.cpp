@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::int64_t kMeasureNs = 100'000'000;
 constexpr std::int64_t kBatchNs = 500'000;
-constexpr int kLeastBatches = 5;
+constexpr int kMinBatches = 5;
 constexpr int kPatienceMs = 100;
 
 void tick(Performer& p) {
@@ -54,7 +54,7 @@ double measureLoad(Performer& p) {
   const std::int64_t end_ns = rt::monotonicNs() + kMeasureNs;
   double least_ns = std::numeric_limits<double>::infinity();
   int ticks = 1;
-  for (int i = 0; i < kLeastBatches || rt::monotonicNs() < end_ns; ++i) {
+  for (int i = 0; i < kMinBatches || rt::monotonicNs() < end_ns; ++i) {
     least_ns = std::min(least_ns, batch(p, ticks));
     if (!finish(p)) {
       return 0.0;

@@ -19,7 +19,7 @@ MotionFrame emptyMotion(const physics::Instrument& instrument) {
   MotionFrame frame;
   frame.displacement.resize(static_cast<std::size_t>(instrument.scene().coordinates()));
   frame.energies = instrument.makeEnergies();
-  frame.guards = instrument.makeGuardReports();
+  frame.tanks = instrument.makeTankReports();
   return frame;
 }
 
@@ -91,7 +91,7 @@ void Performer::publishMotion(std::int64_t tick) noexcept {
   frame.tick = tick;
   instrument->readDisplacements(frame.displacement.data());
   instrument->readEnergies(frame.energies);
-  instrument->readGuards(frame.guards);
+  instrument->readTanks(frame.tanks);
   motion.publish();
 }
 

@@ -13,12 +13,12 @@ namespace {
 
 constexpr double kSwapFadeS = 0.005;
 constexpr std::int64_t kLookInsideTicks = 50;  // a replay must look at the same ticks
-constexpr double kMostOfModel = 1e9;  // N, or full scales: a model that gives more has blown up
+constexpr double kMaxOfModel = 1e9;  // N, or full scales: a model that gives more has blown up
 constexpr std::size_t kMaxKeyframeParameters = 1U << 12U;
 
 /// False for what is not a number, too.
 bool isWithinSanityLimit(double value) noexcept {
-  return std::abs(value) <= kMostOfModel;
+  return std::abs(value) <= kMaxOfModel;
 }
 
 void checkRange(const char* what, double value, double low, double high) {
@@ -78,8 +78,8 @@ std::size_t samples(int frames, int channels) {
 
 double trustedDamping(double declared) noexcept {
   constexpr double kShare = 0.5;
-  constexpr double kMost = 100.0;
-  return std::min(kShare * declared, kMost);
+  constexpr double kMax = 100.0;
+  return std::min(kShare * declared, kMax);
 }
 
 Station::Station(const StationConfig& config,

@@ -32,7 +32,7 @@ TickHistogram::Bin TickHistogram::binAt(std::size_t index) noexcept {
 }
 
 ERGOTIC_REALTIME void TickHistogram::add(std::int64_t ns) noexcept {
-  const std::int64_t clipped = std::clamp<std::int64_t>(ns, 0, kMostNs);
+  const std::int64_t clipped = std::clamp<std::int64_t>(ns, 0, kMaxNs);
   std::atomic<std::int64_t>& count = counts_[indexOf(clipped)];
   count.store(count.load(std::memory_order_relaxed) + 1, std::memory_order_relaxed);
   if (clipped > maxNs()) {

@@ -103,7 +103,7 @@ class CalibratedDriverOverRaw final : public CalibratedDriver {
 
   void push(int slice, double newtons) override {
     requireWithin("slice to push", slice, 0, slices() - 1, "");
-    requireWithin("push", newtons, kLeastPushN, kPushN, "N");
+    requireWithin("push", newtons, kMinPushN, kPushN, "N");
     if (!calibration_.slices[static_cast<std::size_t>(slice)].is_calibrated) {
       throw Exception("slice " + std::to_string(slice) + " has no calibration yet");
     }

@@ -83,16 +83,16 @@ void requireStroke(const std::vector<CalibrationPoint>& points) {
                     numberText(kShortestM) + " m apart");
   }
   // Noise adds to itself over the stroke, so that a line through less than this is no line.
-  constexpr double kMostNoise = 0.1;
+  constexpr double kMaxNoise = 0.1;
   const double volts = by(&CalibrationPoint::mean_volts);
   const double noise = std::sqrt(meanSquareNoise(points));
-  constexpr double kLeastVolts = 1e-3;
-  if (volts < kLeastVolts) {
+  constexpr double kMinVolts = 1e-3;
+  if (volts < kMinVolts) {
     throw Exception(
         "the slice was not moved, or its sensor is not connected: " + numberText(volts) +
-        " V between the places, allowed: at least " + numberText(kLeastVolts) + " V");
+        " V between the places, allowed: at least " + numberText(kMinVolts) + " V");
   }
-  if (noise > kMostNoise * volts) {
+  if (noise > kMaxNoise * volts) {
     throw Exception("the sensor's noise of " + numberText(noise) +
                     " V rms is too large for a stroke of " + numberText(volts) +
                     " V, allowed: at most a tenth of it");
@@ -109,9 +109,9 @@ void requireFullScale(const SliceCalibration& c, const std::string& of) {
   if (c.full_scale_newtons == 0.0 || c.volts_per_newton == 0.0) {
     return;
   }
-  constexpr double kMostApart = 1.1;
+  constexpr double kMaxApart = 1.1;
   const double by_gain = c.max_volts / std::abs(c.volts_per_newton);
-  if (by_gain > kMostApart * c.full_scale_newtons || by_gain < c.full_scale_newtons / kMostApart) {
+  if (by_gain > kMaxApart * c.full_scale_newtons || by_gain < c.full_scale_newtons / kMaxApart) {
     throw Exception("max_volts = " + numberText(c.max_volts) +
                     " V and volts_per_newton = " + numberText(c.volts_per_newton) + " V/N" + of +
                     " make " + numberText(by_gain) + " N of full scale, full_scale_newtons says " +
@@ -154,8 +154,8 @@ bool isChecked(const SliceCalibration& c) {
 
 double judgePush(const Push& push, double mass_kg) {
   // A hand, friction and other masses than was said: what counts is a factor of ten.
-  constexpr double kLeast = 0.2;
-  constexpr double kMost = 4.0;
+  constexpr double kMin = 0.2;
+  constexpr double kMax = 4.0;
   if (push.seconds == 0.0 && push.moved_m != 0.0) {
     throw Exception("the slice moved by " + numberText(1e3 * push.moved_m) +
                     " mm before it was pushed, allowed: at most " + numberText(1e3 * kRestM) +
@@ -171,14 +171,14 @@ double judgePush(const Push& push, double mass_kg) {
                            " N moved the slice by " + numberText(1e3 * push.moved_m) + " mm in " +
                            numberText(1e3 * push.seconds) + " ms, as one of " + numberText(force) +
                            " N would: ";
-  if (force < -kLeast * push.newtons) {
+  if (force < -kMin * push.newtons) {
     throw Exception(what + "the sign of volts_per_newton or of metres_per_volt is wrong");
   }
-  if (!(force >= kLeast * push.newtons && force <= kMost * push.newtons)) {
+  if (!(force >= kMin * push.newtons && force <= kMax * push.newtons)) {
     throw Exception(what +
                     "volts_per_newton is wrong, or a hand holds the slice, or the amplifier is"
                     " off, allowed: " +
-                    numberText(kLeast * push.newtons) + "..." + numberText(kMost * push.newtons) +
+                    numberText(kMin * push.newtons) + "..." + numberText(kMax * push.newtons) +
                     " N");
   }
   return force;

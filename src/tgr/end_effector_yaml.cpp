@@ -26,10 +26,10 @@ std::vector<std::string> keysOf(const TypeTraits& traits, EndEffectorType type) 
 
 std::vector<Eigen::Vector3d> readPoints(const SceneBuilder& builder, const YamlMap& map) {
   const scene::Node& list = map.at("points");
-  if (!list.isList() || list.size() < kFewestPoints || list.size() > kMostPoints) {
+  if (!list.isList() || list.size() < kFewestPoints || list.size() > kMaxPoints) {
     map.fail("points", "'points' of " + map.what() + " is " + scene::kindOf(list) +
                            ", allowed: a list of " + std::to_string(kFewestPoints) + " to " +
-                           std::to_string(kMostPoints) + " points [x, y, z]");
+                           std::to_string(kMaxPoints) + " points [x, y, z]");
   }
   std::vector<Eigen::Vector3d> points;
   for (const scene::Node& node : list) {

@@ -29,9 +29,9 @@ void requireInjectable(const FaultOrder& order, int slices) {
     throw Exception("fault " + std::to_string(kind) + " is not known, allowed: 0..." +
                     std::to_string(kNames.size() - 1));
   }
-  constexpr double kMostTicks = 1e9;
+  constexpr double kMaxTicks = 1e9;
   requireWithin("slice of the fault", order.slice, -1, slices - 1, "");
-  requireWithin("ticks of the fault", static_cast<double>(order.ticks), 1.0, kMostTicks, "");
+  requireWithin("ticks of the fault", static_cast<double>(order.ticks), 1.0, kMaxTicks, "");
   const std::string amount = std::string("amount of ") + kNames[kind];
   switch (order.kind) {
     case InjectedFault::kJump:

@@ -16,11 +16,11 @@
 namespace ergotic::files {
 namespace {
 
-constexpr std::size_t kMost = 100;
+constexpr std::size_t kMax = 100;
 const char kNoFile[] = "it is a pipe, a device or a socket, allowed: files";
 
 /// After `path: cannot be read: `.
-std::string reasonAgainst(const std::string& path, std::size_t most = kMost) {
+std::string reasonAgainst(const std::string& path, std::size_t most = kMax) {
   const std::string complaint = complaintOf<Exception>([&] { readFile(path, most); });
   const std::string title = ": cannot be read: ";
   const std::size_t found = complaint.find(title);
@@ -42,7 +42,7 @@ TEST(ReadFileTest, RefusesWhatIsNoRegularFile) {
 }
 
 TEST(ReadFileTest, ShowsANameThatWouldEndTheMessage) {
-  EXPECT_EQ(complaintOf([] { readFile(std::string("\0", 1), kMost); }),
+  EXPECT_EQ(complaintOf([] { readFile(std::string("\0", 1), kMax); }),
             "\\x00: cannot be read: No such file or directory");
 }
 

@@ -13,7 +13,7 @@
 
 namespace ergotic::fuzz {
 
-constexpr std::size_t kMostPlayed = 40;  ///< modules and links: eigenvalues of more are slow
+constexpr std::size_t kMaxPlayed = 40;  ///< modules and links: eigenvalues of more are slow
 
 using SceneReader = scene::Scene (*)(const std::string&,
                                      const std::string&,
@@ -47,7 +47,7 @@ inline void tryScene(const scene::Scene& scene) {
   follow(scene);
   const physics::Rates rates = physics::chooseRates(scene, 48000.0);
   const physics::Settled settled = physics::settle(scene, rates);
-  if (settled.scene.mats.size() + settled.scene.lias.size() <= kMostPlayed) {
+  if (settled.scene.mats.size() + settled.scene.lias.size() <= kMaxPlayed) {
     physics::certify(settled.scene, rates);
     play(*physics::compile(settled.scene, rates, physics::Precision::kFloat));
   }

@@ -21,7 +21,7 @@ FORBIDDEN = [
     ("physics/layout/blocks", "src/physics/layout/blocks/blocks.cpp", '"physics/state/arena.hpp"'),
     ("physics/layout", "src/physics/layout/groups.cpp", '"physics/state/coefficients.hpp"'),
     ("physics/state", "src/physics/state/coefficients.cpp", '"physics/engine/mechanism.hpp"'),
-    ("physics/engine", "src/physics/engine/guarded.cpp",
+    ("physics/engine", "src/physics/engine/energy_stable.cpp",
      '"ergotic/physics/certificate/certify.hpp"'),
     ("physics/certificate", "src/physics/certificate/certify.cpp", '"physics/settling/steps.hpp"'),
     ("physics/settling", "src/physics/settling/settle.cpp", '"ergotic/advice/noise.hpp"'),

@@ -173,7 +173,7 @@ class DisplayTest : public ::testing::Test {
 TEST_F(DisplayTest, LetsNothingWaitForAPicture) {
   constexpr int kRounds = 5;
   constexpr double kPictureS = 2.0;
-  constexpr double kLeastBlocksPerS = 25.0;
+  constexpr double kMinBlocksPerS = 25.0;
   ASSERT_TRUE(eventually([&] { return pictures_.count() > 2; }, PushedStation::kLongS));
   const std::size_t drawn_before = pictures_.count();
   const std::size_t told_before = gesture_.count();
@@ -194,7 +194,7 @@ TEST_F(DisplayTest, LetsNothingWaitForAPicture) {
                      "without a fault, but `" + status.state_text + "`,");
   }
   const double took_s = 1e-9 * static_cast<double>(rt::monotonicNs() - began_ns);
-  EXPECT_GT(static_cast<double>(gesture_.count() - told_before), kLeastBlocksPerS * took_s);
+  EXPECT_GT(static_cast<double>(gesture_.count() - told_before), kMinBlocksPerS * took_s);
   EXPECT_LE(static_cast<double>(pictures_.count() - drawn_before), 2.0 + took_s / kPictureS)
       << "they do not take as long as they should";
 }

@@ -171,7 +171,7 @@ bool SafetyTest::release(const FaultCase& fault, Trials& trials, Outcome& outcom
   const std::int64_t told_ns = record_->dueNs(fault_tick);
   const Trials::Window until_told{
       mark.pushed_ns, std::max(told_ns, mark.request_ns) + kToldNs,
-      fault.start == Start::kEnergy ? ReferenceThreads::kLeastNs : kNoticedNs};
+      fault.start == Start::kEnergy ? ReferenceThreads::kMinNs : kNoticedNs};
   if (trials.judgeThat(outcome.reason == fault.reason, until_told,
                        "the reason, but `" + outcome.says + "` after" + wayTo(fault_tick) +
                            " m,") != Trials::Verdict::kOnTime) {

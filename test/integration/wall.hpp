@@ -29,7 +29,7 @@ constexpr double kForceN = 15.0;
 /// Where even the shortest stall excuses that there is not all of the force: a station mutes it
 /// when it has missed ticks, and lets it back in 50 ms.
 inline Trials::Window mutedBefore(std::int64_t time_ns) {
-  return {time_ns - 60'000'000, time_ns, ReferenceThreads::kLeastNs};
+  return {time_ns - 60'000'000, time_ns, ReferenceThreads::kMinNs};
 }
 
 }  // namespace ergotic::test

@@ -87,14 +87,14 @@ TEST(ModelMeshTest, AStringIsATubeOfSixSides) {
 
 TEST(ModelMeshTest, ManyModulesAreLinesAndPoints) {
   StructureMaker maker;
-  maker.string(ModelMesh::kMostTubeModules + 1, 0.0F);
-  for (std::size_t i = 0; i <= kMostBodies; ++i) {
+  maker.string(ModelMesh::kMaxTubeModules + 1, 0.0F);
+  for (std::size_t i = 0; i <= kMaxBodies; ++i) {
     maker.module(ModelStructure::MASS, 0.0F, 0.0F, 0.1F + 0.01F * static_cast<float>(i));
   }
   Drawn drawn(maker.structure);
   EXPECT_TRUE(drawn.mesh.triangles().empty());
-  EXPECT_EQ(drawn.mesh.lines().size(), 2 * ModelMesh::kMostTubeModules);
-  EXPECT_EQ(drawn.mesh.points().size(), kMostBodies + 1);
+  EXPECT_EQ(drawn.mesh.lines().size(), 2 * ModelMesh::kMaxTubeModules);
+  EXPECT_EQ(drawn.mesh.points().size(), kMaxBodies + 1);
   EXPECT_EQ(drawn.mesh.vertices(), maker.structure.module_names.size()) << "each has but one";
   expectInside(drawn.mesh);
   drawn.vertices();

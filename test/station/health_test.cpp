@@ -21,7 +21,7 @@ scene::Scene links() {
 }
 
 TEST(HealthTest, TellsOfLinksThatAreCutInMoreThanFivePercentOfTheirStepsWorstFirst) {
-  EXPECT_THAT(guardWarnings(links(), {}, {{0, 1000, 60}, {1, 1000, 50}, {2, 200, 150}}),
+  EXPECT_THAT(tankWarnings(links(), {}, {{0, 1000, 60}, {1, 1000, 50}, {2, 200, 150}}),
               ElementsAre(AllOf(HasSubstr("built.yaml:"), HasSubstr("warning: link 'l2'"),
                                 HasSubstr("75 % of 200 steps"), HasSubstr("Lower its 'damping'")),
                           AllOf(HasSubstr("link 'l0'"), HasSubstr("6 % of 1000 steps"))));
@@ -30,19 +30,19 @@ TEST(HealthTest, TellsOfLinksThatAreCutInMoreThanFivePercentOfTheirStepsWorstFir
 TEST(HealthTest, SaysHowStiffALinkCanBeForItsMassesAndThoseThatShareThem) {
   scene::Scene scene = links();  // of 1 kg and the ground
   for (scene::Lia& lia : scene.lias) {
-    lia.scheme = scene::Scheme::kGuarded;
+    lia.scheme = scene::Scheme::kEnergyStable;
   }
   const double alone = 44100.0 * 44100.0;
   EXPECT_NEAR(mostStiffness(scene, scene.lias[0], {}), alone / 3.0, 1e-6 * alone);
   scene.lias[1].stiffness.factor = 6.6e8;
-  EXPECT_THAT(guardWarnings(scene, {}, {{1, 1000, 60}}),
+  EXPECT_THAT(tankWarnings(scene, {}, {{1, 1000, 60}}),
               ElementsAre(HasSubstr("its 'stiffness' is 6.6e+08, and from about 6.5e+08 down")));
 }
 
 /// A gram that three damped contacts share falls onto them and stays there. \param share  of the
 /// stiffness that is told to be the most
 std::vector<std::string> warningsOfABall(double share) {
-  constexpr double kMost = 1e-3 * 44100.0 * 44100.0 / 3.0;
+  constexpr double kMax = 1e-3 * 44100.0 * 44100.0 / 3.0;
   std::ostringstream text;
   text << "ergotic: 1\nsections: {s: {rate: audio, gravity: -9.81}}\nmats:\n"
           "  ground: {type: ground, section: s, at: [0, 0]}\n"
@@ -52,7 +52,7 @@ std::vector<std::string> warningsOfABall(double share) {
           "  tie: {type: spring_damper, between: [ball, rider], stiffness: 500, damping: 0.02,\n"
           "        rest_length: 0.0015}\n";
   for (int i = 0; i < 3; ++i) {
-    text << "  c" << i << ": {type: contact, between: [ground, ball], stiffness: " << share * kMost
+    text << "  c" << i << ": {type: contact, between: [ground, ball], stiffness: " << share * kMax
          << ", damping: 0.05, scheme: energy_stable}\n";
   }
   const physics::Rates rates{44100.0, 14};
@@ -62,9 +62,9 @@ std::vector<std::string> warningsOfABall(double share) {
     performer->instrument->tick({performer->positions.data(), performer->forces.data(),
                                  performer->inputs.data(), performer->outputs.data()});
   }
-  std::vector<physics::GuardReport> guards = performer->instrument->makeGuardReports();
-  performer->instrument->readGuards(guards);
-  return guardWarnings(performer->instrument->scene(), rates, guards);
+  std::vector<physics::TankReport> guards = performer->instrument->makeTankReports();
+  performer->instrument->readTanks(guards);
+  return tankWarnings(performer->instrument->scene(), rates, guards);
 }
 
 TEST(HealthTest, TheStiffnessThatItTellsIsCutNoMore) {
@@ -74,7 +74,7 @@ TEST(HealthTest, TheStiffnessThatItTellsIsCutNoMore) {
 }
 
 TEST(HealthTest, KeepsQuietAboutLinksThatHardlyPushed) {
-  EXPECT_THAT(guardWarnings(links(), {}, {{0, 199, 199}, {1, 0, 0}}), IsEmpty());
+  EXPECT_THAT(tankWarnings(links(), {}, {{0, 199, 199}, {1, 0, 0}}), IsEmpty());
 }
 
 TEST(HealthTest, MeasuresTheResidualAgainstAllTheEnergyThatThereWas) {

@@ -38,7 +38,7 @@ test::SceneBuilder oscillator(double stiffness) {
   const int mass = b.mass(1e-3, 1e-3);
   b.spring(mass, b.ground(), stiffness);
   b.link(scene::LiaType::kContact, b.slice(3), mass, 1e3, 0.1);
-  b.scene.lias.back().scheme = scene::Scheme::kGuarded;
+  b.scene.lias.back().scheme = scene::Scheme::kEnergyStable;
   b.hear(mass);
   return b;
 }
@@ -73,7 +73,7 @@ TEST(PerformerTest, PlaysTheSettledSceneAndTellsWhatWasChosen) {
   scene.lias[1].scheme = scene::Scheme::kAuto;
   scene.warnings = {"read"};
   const auto performer = make(scene);
-  EXPECT_EQ(performer->instrument->scene().lias[1].scheme, scene::Scheme::kGuarded);
+  EXPECT_EQ(performer->instrument->scene().lias[1].scheme, scene::Scheme::kEnergyStable);
   EXPECT_EQ(performer->warnings.front(), "read");
   EXPECT_THAT(performer->warnings.back(), HasSubstr("note: link 'l1': energy-stable"));
 }

@@ -118,7 +118,7 @@ TEST(StationRealtimeTest, TickDoesNothingThatItMayNotWhateverIsAsked) {
 }
 
 /// A finger on a string in three dimensions that a parameter moves, a place that a guide moves, a
-/// guarded contact.
+/// energy-stable contact.
 const char kMovedPlaces[] = R"(ergotic: 1
 name: moved places
 parameters:
@@ -183,9 +183,9 @@ TEST(StationRealtimeTest, PlacesMoveWhilePlaying) {
   }
   EXPECT_NEAR(motion.displacement[first], 0.4F * 0.6F, 0.02F) << "0.3 to 0.7 of 0.6 m";
   EXPECT_NE(motion.energies.sections[0].from_inputs, 0.0) << "work of the places that move";
-  ASSERT_EQ(motion.guards.size(), 32U) << "the springs of the string, and the touch";
-  for (const physics::GuardReport& guard : motion.guards) {
-    EXPECT_GT(guard.active, 0);
+  ASSERT_EQ(motion.tanks.size(), 32U) << "the springs of the string, and the touch";
+  for (const physics::TankReport& tank : motion.tanks) {
+    EXPECT_GT(tank.active, 0);
   }
 }
 

@@ -220,7 +220,7 @@ TEST(TimerSourceTest, RefusesOptionsOutsideTheirRange) {
   EXPECT_FALSE(timer.isRunning());
 }
 
-constexpr std::int64_t kMostCaughtUp = 158;  // 50 ms at 3150 Hz
+constexpr std::int64_t kMaxCaughtUp = 158;  // 50 ms at 3150 Hz
 
 /// The hand rests at 1 cm and is found at 2 cm after the stall.
 double jump(std::int64_t exchange, int /*slice*/) {
@@ -315,10 +315,10 @@ TEST(CatchUpTest, BoundsItsWorkByMaxStallAndKeepsFrameAndTickInStep) {
   bench.station->catchUp(1000, 317'000'000);
   EXPECT_EQ(bench.station->nextTick(), kRampTicks + 1000);
   const auto events = bench.events();
-  EXPECT_EQ(test::firstOf(events, Event::Type::kStall).index, kMostCaughtUp);
+  EXPECT_EQ(test::firstOf(events, Event::Type::kStall).index, kMaxCaughtUp);
   const Event lost = test::firstOf(events, Event::Type::kTicksLost);
   EXPECT_EQ(lost.tick, kRampTicks);
-  EXPECT_EQ(lost.index, 1000 - kMostCaughtUp);
+  EXPECT_EQ(lost.index, 1000 - kMaxCaughtUp);
   const Event fault = test::firstOf(events, Event::Type::kFault);
   EXPECT_EQ(fault.index, static_cast<int>(FaultReason::kStall));
   EXPECT_DOUBLE_EQ(fault.value, 0.317);
@@ -326,8 +326,8 @@ TEST(CatchUpTest, BoundsItsWorkByMaxStallAndKeepsFrameAndTickInStep) {
 
   // The oldest frames are the lost ones; the model made no samples meanwhile.
   const std::size_t before = kRampTicks * 14;
-  ASSERT_EQ(frames.samples.size(), before + kMostCaughtUp * 14);
-  EXPECT_EQ(frames.indices[before], (kRampTicks + 1000 - kMostCaughtUp) * 14);
+  ASSERT_EQ(frames.samples.size(), before + kMaxCaughtUp * 14);
+  EXPECT_EQ(frames.indices[before], (kRampTicks + 1000 - kMaxCaughtUp) * 14);
   EXPECT_EQ(frames.samples[before], static_cast<float>(before));
 
   bench.run(kRampTicks);
@@ -337,9 +337,9 @@ TEST(CatchUpTest, BoundsItsWorkByMaxStallAndKeepsFrameAndTickInStep) {
 TEST(CatchUpTest, RunsUpToMaxStallWithoutAFault) {
   Bench bench({}, jump);
   bench.run(10);
-  bench.station->catchUp(kMostCaughtUp, 50'000'000);
+  bench.station->catchUp(kMaxCaughtUp, 50'000'000);
   EXPECT_EQ(test::count(bench.events(), Event::Type::kFault), 0);
-  EXPECT_EQ(bench.station->nextTick(), 10 + kMostCaughtUp);
+  EXPECT_EQ(bench.station->nextTick(), 10 + kMaxCaughtUp);
 }
 
 }  // namespace

@@ -39,22 +39,22 @@ void visitVelocities(const Player& player, std::size_t n, const Visit& visit) {
 
 }  // namespace
 
-std::vector<physics::GuardedState<double>> guardsOf(const Player& player) {
-  return numbersOf<physics::GuardedState<double>>(*player.instrument, "guarded0");
+std::vector<physics::EnergyStableState<double>> tankStatesOf(const Player& player) {
+  return numbersOf<physics::EnergyStableState<double>>(*player.instrument, "energy_stable0");
 }
 
-double heatOf(const std::vector<physics::GuardedState<double>>& guards) {
-  return std::accumulate(guards.begin(), guards.end(), 0.0,
-                         [](double sum, const auto& guard) { return sum + guard.lost; });
+double heatOf(const std::vector<physics::EnergyStableState<double>>& tanks) {
+  return std::accumulate(tanks.begin(), tanks.end(), 0.0,
+                         [](double sum, const auto& tank) { return sum + tank.lost; });
 }
 
 double energyBetweenSteps(const Player& player,
-                          const std::vector<physics::GuardedState<double>>& guards) {
+                          const std::vector<physics::EnergyStableState<double>>& tanks) {
   double energy = 0.0;
   visitVelocities(player, player.heard[0].size() - 1,
                   [&](std::size_t, double kg, double v) { energy += 0.5 * kg * v * v; });
-  return std::accumulate(guards.begin(), guards.end(), energy,
-                         [](double sum, const auto& guard) { return sum + guard.tank; });
+  return std::accumulate(tanks.begin(), tanks.end(), energy,
+                         [](double sum, const auto& tank) { return sum + tank.tank; });
 }
 
 namespace {

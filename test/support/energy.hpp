@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "physics/laws/guarded_force.hpp"
+#include "physics/laws/energy_stable_force.hpp"
 #include "physics/layout/layout.hpp"
 #include "support/scene_builder.hpp"
 
@@ -30,14 +30,14 @@ class Swing {
 /// Of all masses at frame n; the velocity of mass m is heard on the channels from 3 m on.
 Eigen::Vector3d momentumOf(const Player& player, std::size_t n);
 
-/// What the guarded links remember. \pre double, one group of them
-std::vector<physics::GuardedState<double>> guardsOf(const Player& player);
+/// What the energy-stable links remember. \pre double, one group of them
+std::vector<physics::EnergyStableState<double>> tankStatesOf(const Player& player);
 /// What they have lost so far, J.
-double heatOf(const std::vector<physics::GuardedState<double>>& guards);
-/// Energy between two steps, of nothing but masses, heard as above, and guarded links, J. The
-/// energy accounts hold half of a step's work back. \param guards  before the last tick
+double heatOf(const std::vector<physics::EnergyStableState<double>>& tanks);
+/// Energy between two steps, of nothing but masses, heard as above, and energy-stable links, J. The
+/// energy accounts hold half of a step's work back. \param tanks  before the last tick
 double energyBetweenSteps(const Player& player,
-                          const std::vector<physics::GuardedState<double>>& guards);
+                          const std::vector<physics::EnergyStableState<double>>& tanks);
 
 /// Plays with hands that move at random and noise in the inputs, and reads the energy accounts
 /// after every `every` ticks. \return the largest residual, of the largest energy stored; infinite

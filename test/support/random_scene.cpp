@@ -327,11 +327,11 @@ class RandomMaker {
     }
   }
 
-  /// Springs along lines that turn are certified only if they are guarded.
+  /// Springs along lines that turn are certified only if they are energy-stable.
   void guardNets() {
     for (Lia& lia : b_.scene.lias) {
       const bool turns = lia.type == LiaType::kSpringDamper && !actsAlongX(lia.a, lia.b);
-      lia.scheme = turns && lia.rest_length > 0.0 ? scene::Scheme::kGuarded : lia.scheme;
+      lia.scheme = turns && lia.rest_length > 0.0 ? scene::Scheme::kEnergyStable : lia.scheme;
     }
   }
 

@@ -25,7 +25,7 @@ namespace ergotic::test {
 namespace {
 
 constexpr int kCalls = 512;  // more than there are
-constexpr int kMostTold = 20;
+constexpr int kMaxTold = 20;
 
 thread_local bool is_watched = false;
 thread_local bool has_filter = false;
@@ -47,7 +47,7 @@ int reportFile() noexcept {
 void tell(const char* kind, const char* name) noexcept {
   static std::atomic<int> told{0};
   const bool was_watched = std::exchange(is_watched, false);
-  if (told++ < kMostTold) {
+  if (told++ < kMaxTold) {
     std::array<char, 80> line{};
     std::strncat(line.data(), kind, 30);
     std::strncat(line.data(), name, 30);

@@ -34,7 +34,7 @@ class ReferenceThreads {
 
   static constexpr std::int64_t kShortestNs = 200'000;
   static constexpr std::int64_t kPauseNs = 200'000;
-  static constexpr std::int64_t kLeastNs = kShortestNs + kPauseNs;
+  static constexpr std::int64_t kMinNs = kShortestNs + kPauseNs;
   static constexpr std::int64_t kFinePauseNs = 100'000;  // sees whatever makes a tick of 3 kHz late
   /// Of threads above all; what they judge stands next to them, so that other tests come after it.
   static constexpr int kPriority = 90;

@@ -19,8 +19,8 @@ struct SmallScene {
   std::string text() const;  ///< YAML: all that `check` and `render` need but the rates
 };
 
-/// Families in turn; some masses and links of every law, explicit, guarded or automatic, at one
-/// rate or several, scalar or Euclidean. Nothing drives it: it starts to move, within some
+/// Families in turn; some masses and links of every law, explicit, energy-stable or automatic, at
+/// one rate or several, scalar or Euclidean. Nothing drives it: it starts to move, within some
 /// millimetres. \return the same scene for the same seed
 SmallScene smallScene(unsigned seed);
 

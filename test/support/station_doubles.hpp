@@ -85,9 +85,9 @@ class SpringInstrument : public physics::Instrument {
   void saveState(void* to) const noexcept override;
   void loadState(const void* from) noexcept override;
   physics::Energies makeEnergies() const override { return {}; }
-  std::vector<physics::GuardReport> makeGuardReports() const override { return {}; }
+  std::vector<physics::TankReport> makeTankReports() const override { return {}; }
   void readEnergies(physics::Energies&) const noexcept override {}
-  void readGuards(std::vector<physics::GuardReport>&) const noexcept override {}
+  void readTanks(std::vector<physics::TankReport>&) const noexcept override {}
   void readDisplacements(float* to) const noexcept override;
   std::vector<std::string> describe() const override { return {}; }
   bool isFinite() const noexcept override;

@@ -58,14 +58,14 @@ TEST_P(KinematicsTest, HasTheJacobianOfItsForwardMap) {
 /// The slices that bring it somewhere are those that are there, as each pose within has a map that
 /// can be inverted; from rest on, whatever the way.
 TEST_P(KinematicsTest, IsBroughtToWhereItCanBe) {
-  constexpr double kMost = 0.1;
+  constexpr double kMax = 0.1;
   RandomPoses poses(GetParam(), 3);
   const Kinematics& kinematics = poses.kinematics();
   JacobianRows unused{};
   for (int n = 0; n < 500; ++n) {
     poses.nextWithin();
     Pose q{};
-    EXPECT_LT(bringTo(kinematics, poses.x().data(), kMost, q.data()), 1e-9) << n;
+    EXPECT_LT(bringTo(kinematics, poses.x().data(), kMax, q.data()), 1e-9) << n;
     Coordinates x{};
     ASSERT_TRUE(kinematics.forward(q.data(), x.data(), unused.data()));
     for (int c = 0; c < kinematics.coordinates(); ++c) {
@@ -76,17 +76,17 @@ TEST_P(KinematicsTest, IsBroughtToWhereItCanBe) {
 }
 
 TEST_P(KinematicsTest, IsBroughtAsNearAsItGetsToWhereItCannotBe) {
-  constexpr double kMost = 0.02;
+  constexpr double kMax = 0.02;
   const auto kinematics = makeKinematics(GetParam().config, "hands.yaml");
   Coordinates x{};
   x.fill(1.0);
   Pose q{};
-  EXPECT_GT(bringTo(*kinematics, x.data(), kMost, q.data()), 0.5);
+  EXPECT_GT(bringTo(*kinematics, x.data(), kMax, q.data()), 0.5);
   Coordinates reached{};
   JacobianRows unused{};
   EXPECT_TRUE(kinematics->forward(q.data(), reached.data(), unused.data())) << "within";
   for (const double slice : q) {
-    EXPECT_LE(std::abs(slice), kMost);
+    EXPECT_LE(std::abs(slice), kMax);
   }
 }
 

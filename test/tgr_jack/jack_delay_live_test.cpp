@@ -76,7 +76,7 @@ TEST_P(JackRoundTripTest, IsTheOneThatIsDeclaredToTheFrame) {
   for (int step = 0; step < summary.answered + summary.disturbed; ++step) {
     trials.next();
     trials.judgeThat(step >= summary.disturbed,
-                     {from_ns, rt::monotonicNs(), test::ReferenceThreads::kLeastNs},
+                     {from_ns, rt::monotonicNs(), test::ReferenceThreads::kMinNs},
                      "an answer without blocks left out");
   }
   trials.expectNineOfTen();

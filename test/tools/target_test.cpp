@@ -132,13 +132,13 @@ TEST(TargetTest, ContactIsAsGoodAsAskedForWhenItIsPlayed) {
   }
 }
 
-TEST(TargetTest, ExplicitContactIsGuardedOnlyWhereItHasToBe) {
+TEST(TargetTest, ExplicitContactIsEnergyStableOnlyWhereItHasToBe) {
   const Freedom here{false, false, true};
   const Proposal coarse = proposalFor(ballOn("explicit"), "1 cent", here);
   EXPECT_EQ(coarse.scene.lias[0].scheme, scene::Scheme::kExplicit);
   EXPECT_EQ(coarse.advice[0].change, "");
   const Proposal fine = proposalFor(ballOn("explicit"), "0.05 cents", here);
-  EXPECT_EQ(fine.scene.lias[0].scheme, scene::Scheme::kGuarded);
+  EXPECT_EQ(fine.scene.lias[0].scheme, scene::Scheme::kEnergyStable);
   EXPECT_EQ(fine.rates.audio_hz, 44100.0);
   EXPECT_GT(fine.cost, coarse.cost);
 }

@@ -17,7 +17,7 @@ struct ModeWindow {
   int most = 20;  ///< largest number, lowest modes first, >= 1
 };
 
-constexpr int kMostModes = 2000;  ///< largest number that can be asked for
+constexpr int kMaxModes = 2000;  ///< largest number that can be asked for
 
 /// Share of a link in a mode, 0...1.
 struct LinkShare {

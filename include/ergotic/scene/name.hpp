@@ -50,7 +50,7 @@ class Name {
 
  private:
   struct Stem;
-  /// The numbers as text, in a buffer of at least kMostDigits.
+  /// The numbers as text, in a buffer of at least kMaxDigits.
   std::string_view digits(char* buffer) const noexcept;
   std::string_view stem() const noexcept;
 

@@ -119,9 +119,9 @@ inline void setVelocity(Mat& mat, const Eigen::Vector3d& velocity) {
 
 /// How the force of a link is worked out in time.
 enum class Scheme : std::uint8_t {
-  kExplicit,  ///< CORDIS-ANIMA, from the present positions
-  kGuarded,   ///< never gives more energy than it took; contact, two-sided springs and friction
-  kAuto,      ///< `settle` chooses by the rules of the certificate
+  kExplicit,      ///< CORDIS-ANIMA, from the present positions
+  kEnergyStable,  ///< never gives more energy than it took; contact, two-sided springs and friction
+  kAuto,          ///< `settle` chooses by the rules of the certificate
   /// `settle` chooses: explicit, as `.mdl` files mean it, unless it is too stiff for that.
   kExplicitIfStable,
 };
@@ -138,7 +138,7 @@ struct Relaxation {
   Value stiffness{};  ///< K_r >= 0, kg/time_unit^2
   double time = 1.0;  ///< time in which it decays, time units
 };
-constexpr std::size_t kMostRelaxations = 3;
+constexpr std::size_t kMaxRelaxations = 3;
 
 /// Coefficients that only some laws of links need.
 struct LiaLaw {
@@ -158,7 +158,7 @@ struct LiaLaw {
   /// the others hold their ends.
   Table table;
   Table viscous_table;                  ///< (v, force): LNL
-  std::vector<Relaxation> relaxations;  ///< relaxing: 1...kMostRelaxations
+  std::vector<Relaxation> relaxations;  ///< relaxing: 1...kMaxRelaxations
   /// Friction: the normal force, kg m/time_unit^2, unless a contact gives it.
   Value normal{};
   Name pressed_by;  ///< the contact whose force, where it pushes, is the normal force
@@ -207,8 +207,8 @@ struct Bend {
   Place place;
 };
 
-/// One energy tank for many hardening links: cubic, without K and Z, guarded together. Either each
-/// of them hardens by itself, or all by the mean of what they are stretched (`addStretch`).
+/// One energy tank for many hardening links: cubic, without K and Z, sharing its energy. Either
+/// each of them hardens by itself, or all by the mean of what they are stretched (`addStretch`).
 struct Tank {
   Name name;
   bool is_mean = false;      ///< (sum Q e^2)^2 / (4 sum Q) is stored, not sum Q e^4 / 4
@@ -431,9 +431,9 @@ struct Scene {
   int outputChannels() const;
 };
 
-/// True if the link may be guarded, see `Law::unguarded`; a damper without a rest length only where
-/// its line may turn. \pre the ends of the link exist
-bool isGuardable(const Scene& scene, const Lia& lia);
+/// True if the link may be energy-stable, see `Law::explicitOnly`; a damper without a rest length
+/// only where its line may turn. \pre the ends of the link exist
+bool canBeEnergyStable(const Scene& scene, const Lia& lia);
 
 /// True if the scene leaves nothing open: no rate, scheme, chaplet or pitch is still to
 /// be chosen (physics::settle does); `compile` and `certify` need that.

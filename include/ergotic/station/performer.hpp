@@ -16,12 +16,13 @@
 
 namespace ergotic::station {
 
-/// Data of a model for displays: one frame of its motion, its energies, and its guarded links.
+/// Data of a model for displays: one frame of its motion, its energies, and its energy-stable
+/// links.
 struct MotionFrame {
   std::int64_t tick = 0;
   std::vector<float> displacement;  ///< [Scene::coordinates] m from rest
   physics::Energies energies;
-  std::vector<physics::GuardReport> guards;
+  std::vector<physics::TankReport> tanks;
 };
 
 /// An instrument ready to play: everything the tick needs for it is allocated here.

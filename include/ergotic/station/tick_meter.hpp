@@ -14,7 +14,7 @@ class TickHistogram {
  public:
   static constexpr int kParts = 32;
   /// 68 s; what is longer counts as this.
-  static constexpr std::int64_t kMostNs = (std::int64_t{1} << 36) - 1;
+  static constexpr std::int64_t kMaxNs = (std::int64_t{1} << 36) - 1;
   struct Bin {
     std::int64_t low_ns = 0;  ///< first and last that it holds
     std::int64_t high_ns = 0;

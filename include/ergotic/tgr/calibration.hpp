@@ -38,7 +38,7 @@ bool isChecked(const SliceCalibration& calibration);
 constexpr double kRestS = 0.1;   ///< time at rest before the push
 constexpr double kRestM = 1e-4;  ///< largest motion within kRestS that counts as rest
 constexpr double kPushN = 1.0;   ///< largest force, at the end of the push
-constexpr double kLeastPushN = 0.1;
+constexpr double kMinPushN = 0.1;
 constexpr double kPushS = 0.05;   ///< duration of the push
 constexpr double kPushM = 0.001;  ///< motion at which it ends earlier, as under too large a gain
 

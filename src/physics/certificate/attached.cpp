@@ -13,9 +13,9 @@ namespace {
 
 using scene::MatType;
 
-constexpr double kSway = 0.01;     // m
-constexpr double kMostLead = 0.1;  // of what a link itself answers
-constexpr int kNearest = 16;       // of more than can be worked out
+constexpr double kSway = 0.01;    // m
+constexpr double kMaxLead = 0.1;  // of what a link itself answers
+constexpr int kNearest = 16;      // of more than can be worked out
 constexpr double kAxisRounding = 1e-9;
 
 /// True if what moves along the axes of one section is not all seen in another.
@@ -133,7 +133,7 @@ bool leadsBack(const Attached& body, const Network& network) {
         if (moved.count(way->guide) == 0 || way->scale == 0.0) {
           continue;
         }
-        const double most = isOfBody(way->guide) ? kMostLead : 0.0;
+        const double most = isOfBody(way->guide) ? kMaxLead : 0.0;
         if (isOfBody(connection.mat) && leadOf(scene, connection, *way) > most) {
           return true;
         }

@@ -11,8 +11,8 @@ namespace ergotic::physics {
 namespace {
 
 constexpr int kPlaces = 5;
-constexpr double kMostWork = 2e7;  // cubes of numbers of a state
-constexpr double kMostCases = 27.0;
+constexpr double kMaxWork = 2e7;  // cubes of numbers of a state
+constexpr double kMaxCases = 27.0;
 
 /// The scene without dampers along lines that turn: these do not damp motion across the lines.
 scene::Scene withoutTurning(scene::Scene scene, const RatedNetwork& networks) {
@@ -52,7 +52,7 @@ void addPlaces(const scene::Scene& scene, std::vector<scene::Scene>& cases) {
 /// Number of cases for which the slowest part, the eigenvalues, takes less than about a second.
 int mostCases(int masses) {
   const double numbers = 3.0 * std::clamp(masses, 1, 100);
-  return static_cast<int>(std::clamp(kMostWork / std::pow(numbers, 3), 3.0, kMostCases));
+  return static_cast<int>(std::clamp(kMaxWork / std::pow(numbers, 3), 3.0, kMaxCases));
 }
 
 }  // namespace

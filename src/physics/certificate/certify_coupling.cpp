@@ -18,7 +18,7 @@
 namespace ergotic::physics {
 namespace {
 
-constexpr int kMostMasses = 300;          // whose eigenvalues are worked out
+constexpr int kMaxMasses = 300;           // whose eigenvalues are worked out
 constexpr double kRadiusRounding = 1e-9;  // of a radius of 1
 constexpr double kCertainGrowth = 1e-2;   // per period
 constexpr double kRoundingOfFloat = 2.5e-7;
@@ -40,7 +40,7 @@ class Roundings {
     scene::Scene counted = scene;
     int numbers = 0;
     forNumbers(counted, [&numbers](double&) { ++numbers; });
-    while (cases_ <= numbers && cases_ < (numbers > kMany ? kFewCases : kMostCases)) {
+    while (cases_ <= numbers && cases_ < (numbers > kMany ? kFewCases : kMaxCases)) {
       cases_ *= 2;
     }
   }
@@ -59,7 +59,7 @@ class Roundings {
   }
 
  private:
-  static constexpr int kMostCases = 64;
+  static constexpr int kMaxCases = 64;
   static constexpr int kFewCases = 16;  // as they take long
   static constexpr int kMany = 200;
   static bool isOdd(int bits) {
@@ -147,7 +147,7 @@ class CouplingJudge {
                                  : "is coupled to a faster one, stiffly for its rate, bound " +
                                        describe(bound) + " of 4";
     const Island members(networks_, name);
-    if (members.masses() > kMostMasses) {
+    if (members.masses() > kMaxMasses) {
       watch(members, coupling, what);
     } else {
       tryEigenvalues(members, coupling, what);

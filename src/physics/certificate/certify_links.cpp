@@ -17,14 +17,14 @@ namespace {
 
 using scene::Lia;
 
-constexpr double kMostPower = 100.0;  // kg m^2/time_unit^2 each second, of what moves a point
+constexpr double kMaxPower = 100.0;  // kg m^2/time_unit^2 each second, of what moves a point
 // With products and some hundred times more, what single precision holds:
-constexpr double kMostLoad = 1e30;
-constexpr double kMostCurved = 1e15;  // whose square is worked out
-constexpr double kMostForce = 1e36;   // kg m/time_unit^2
-constexpr double kMostCubic = 1e30;   // kg/(m^2 time_unit^2)
-constexpr double kMostLength = 1e18;  // m, whose square is worked out
-constexpr double kSecond = 1.0;       // s, more than guards look ahead
+constexpr double kMaxLoad = 1e30;
+constexpr double kMaxCurved = 1e15;  // whose square is worked out
+constexpr double kMaxForce = 1e36;   // kg m/time_unit^2
+constexpr double kMaxCubic = 1e30;   // kg/(m^2 time_unit^2)
+constexpr double kMaxLength = 1e18;  // m, whose square is worked out
+constexpr double kSecond = 1.0;      // s, more than energy-stable links look ahead
 constexpr double kDay = 1e5;
 
 class LinkJudge {
@@ -36,8 +36,8 @@ class LinkJudge {
     const Lia& lia = networks_.scene().lias[at(l)];
     const Slopes& slopes = networks_.slopes(l);
     judgeSize(lia);
-    if (lia.scheme == scene::Scheme::kGuarded) {
-      judgeGuarded(lia, slopes);
+    if (lia.scheme == scene::Scheme::kEnergyStable) {
+      judgeEnergyStable(lia, slopes);
       return;
     }
     notePlaces(lia);
@@ -109,7 +109,7 @@ class LinkJudge {
   void judgePlace(const scene::Connection& place) {
     // An energy is in kg m^2/time_unit^2.
     const double unit = networks_.scene().time_unit_s;
-    if (place.power <= kMostPower / (unit * unit)) {
+    if (place.power <= kMaxPower / (unit * unit)) {
       findings_.worsen(Verdict::kBounded);
       return;
     }
@@ -117,7 +117,7 @@ class LinkJudge {
                   "point '" + networks_.scene().mats[at(place.mat)].name +
                       "' moves, and may bring " + describe(place.power) +
                       " W to what is linked to it, more than a hand does. Let its power be " +
-                      describe(kMostPower) + " W or less");
+                      describe(kMaxPower) + " W or less");
   }
 
   void noteTurning(const Lia& lia) {
@@ -127,16 +127,16 @@ class LinkJudge {
     }
   }
 
-  void judgeGuarded(const Lia& lia, const Slopes& slopes) {
+  void judgeEnergyStable(const Lia& lia, const Slopes& slopes) {
     const scene::Law& law = scene::lawOf(lia.type);
     const double give = networks_.inverseMassStep2(lia);
-    if (const double load = give * std::max(slopes.stiffness.highest, 1.0); !(load < kMostLoad)) {
+    if (const double load = give * std::max(slopes.stiffness.highest, 1.0); !(load < kMaxLoad)) {
       findings_.add(Verdict::kUnproven, lia.place,
                     "energy-stable link '" + lia.name +
                         "': h^2 K (1/Ma + 1/Mb) = " + describe(load) +
                         " is more than single precision can count with, up to 1e30");
     } else if (const double curved = slopes.is_unbounded ? largestLoad(lia) : 0.0;
-               !(curved < kMostCurved)) {
+               !(curved < kMaxCurved)) {
       findings_.add(
           Verdict::kUnproven, lia.place,
           "energy-stable link '" + lia.name +
@@ -144,10 +144,10 @@ class LinkJudge {
               "1/Mb) of " +
               describe(curved) +
               ", more than single precision can count with where a law is curved, up to " +
-              describe(kMostCurved));
+              describe(kMaxCurved));
     }
     if (!(give > 0.0)) {
-      judgeGift(lia, law);  // a guard holds back what forces move
+      judgeGift(lia, law);  // a tank holds back what forces move
     } else if (law.canGive(lia)) {
       findings_.worsen(Verdict::kBounded);  // though no more than its tank holds
     }
@@ -216,18 +216,20 @@ class LinkJudge {
                         ", beyond the range of single precision, " + describe(most) +
                         ". Use precision: double, or smaller values");
     };
-    const bool is_guarded = lia.scheme == scene::Scheme::kGuarded;
-    const double length = largest_.reach(isAlongALine(lia) ? kDay : is_guarded ? kSecond : 0.0);
-    if (const double force = largest_.forceOf(lia); !(force < kMostForce)) {
-      tell("a force", force, kMostForce);
-    } else if (const double power = powerOf(lia); !(power < kMostForce)) {
-      tell("a power of its elongation", power, kMostForce);
-    } else if (const double bend = steepestCubic(lia); !(bend < kMostCubic)) {
-      tell("a change of force over the cube of a distance in its table", bend, kMostCubic);
-    } else if (is_guarded && !(largest_.energy() < kMostForce)) {
-      tell("an energy", largest_.energy(), kMostForce);
-    } else if (!(length < kMostLength)) {
-      tell("a length", length, kMostLength);
+    const bool is_energy_stable = lia.scheme == scene::Scheme::kEnergyStable;
+    const double length = largest_.reach(isAlongALine(lia)  ? kDay
+                                         : is_energy_stable ? kSecond
+                                                            : 0.0);
+    if (const double force = largest_.forceOf(lia); !(force < kMaxForce)) {
+      tell("a force", force, kMaxForce);
+    } else if (const double power = powerOf(lia); !(power < kMaxForce)) {
+      tell("a power of its elongation", power, kMaxForce);
+    } else if (const double bend = steepestCubic(lia); !(bend < kMaxCubic)) {
+      tell("a change of force over the cube of a distance in its table", bend, kMaxCubic);
+    } else if (is_energy_stable && !(largest_.energy() < kMaxForce)) {
+      tell("an energy", largest_.energy(), kMaxForce);
+    } else if (!(length < kMaxLength)) {
+      tell("a length", length, kMaxLength);
     }
   }
 
@@ -253,7 +255,7 @@ class LinkJudge {
   }
 
   const char* cureOf(const Lia& lia) const {
-    return scene::isGuardable(networks_.scene(), lia)
+    return scene::canBeEnergyStable(networks_.scene(), lia)
                ? "Use scheme: energy_stable, or raise the rate"
                : "Raise the rate";
   }
@@ -320,7 +322,8 @@ class LinkJudge {
             "' falls where it slips faster, and something that it reaches loses no "
             "energy: what swings in time with the steps may be driven. Damp every mass "
             "that it reaches" +
-            (scene::isGuardable(networks_.scene(), lia) ? ", or use scheme: energy_stable" : ""));
+            (scene::canBeEnergyStable(networks_.scene(), lia) ? ", or use scheme: energy_stable"
+                                                              : ""));
   }
 
   const RatedNetwork& networks_;

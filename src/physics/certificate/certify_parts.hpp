@@ -9,7 +9,8 @@
 
 namespace ergotic::physics {
 
-/// Links that are more than springs and dampers: rules of contact, friction, tables, guards.
+/// Links that are more than springs and dampers: rules of contact, friction, tables, tanks of
+/// energy.
 void judgeLinks(const RatedNetwork& networks, Findings& findings);
 
 /// Scalar modules that meet lines, planes and space along different axes.

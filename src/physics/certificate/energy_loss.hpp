@@ -12,11 +12,12 @@ namespace ergotic::physics {
 
 /// Finds where energy is lost in every motion: where the damping matrix of the explicit links, at
 /// their softest, is positive definite. A bounded force keeps its modules bounded only if all of
-/// them lose energy, and all to which guarded links pass energy on; a part without loss accumulates
-/// the least energy that a step gives (docs/physics/stability.md, "How a scene is certified").
+/// them lose energy, and all to which energy-stable links pass energy on; a part without loss
+/// accumulates the least energy that a step gives (docs/physics/stability.md, "How a scene is
+/// certified").
 class EnergyLoss {
  public:
-  /// \param networks  must outlive this; links of which the scheme is open count as guarded
+  /// \param networks  must outlive this; links of which the scheme is open count as energy-stable
   explicit EnergyLoss(const RatedNetwork& networks);
 
   /// True if all that a link acts on, at one rate, loses energy. Cost: a factorisation for each
@@ -40,7 +41,7 @@ class EnergyLoss {
   bool crossesToAMass(const scene::Lia& lia) const;
 
   const RatedNetwork& networks_;
-  DisjointSets joined_;           // islands, by guarded links
+  DisjointSets joined_;           // islands, by energy-stable links
   std::map<int, Group> groups_;   // by the island that names them
   std::map<int, bool> of_group_;  // known
 };

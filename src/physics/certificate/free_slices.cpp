@@ -36,12 +36,12 @@ using scene::MatType;
 // What is attached to a link is worst where it answers about a quarter of a period late: with 0.08
 // kg a factor of 1.2 beside that it grows by 2 % a second less.
 constexpr double kFineness = 1.4142135623730951;
-constexpr double kLeastPart = 0.0625;
+constexpr double kMinPart = 0.0625;
 constexpr int kFineMasses = 30;  // of more only every fourth, a factor of 4
 
 std::vector<Parts> allParts() {
   std::vector<Parts> parts{{0.0, 0.0}};
-  double part = kLeastPart;
+  double part = kMinPart;
   for (int i = 0; part < 0.99; ++i, part *= kFineness) {
     parts.push_back({part, 0.0, false, i % 4 != 0});
   }
@@ -66,27 +66,27 @@ bool isContact(const scene::Lia& lia) {
   return scene::lawOf(lia.type).kind == scene::Law::Kind::kGap;
 }
 
-/// Guarded links of every module. [mats]
-std::vector<int> guardsOn(const scene::Scene& scene) {
-  std::vector<int> guards(scene.mats.size(), 0);
+/// Energy-stable links of every module. [mats]
+std::vector<int> energyStableLinksOn(const scene::Scene& scene) {
+  std::vector<int> others(scene.mats.size(), 0);
   for (const scene::Lia& lia : scene.lias) {
-    if (lia.scheme == scene::Scheme::kGuarded) {
-      ++guards[at(lia.a)];
-      ++guards[at(lia.b)];
+    if (lia.scheme == scene::Scheme::kEnergyStable) {
+      ++others[at(lia.a)];
+      ++others[at(lia.b)];
     }
   }
-  return guards;
+  return others;
 }
 
 /// A link that is not linear as the spring and damper that it is around some place: what always
-/// holds, and a part of what more it can be. Guarded, it moves its ends about as one whose force is
-/// the mean over the steps on both sides does; springs only where they are stiff for a step.
-/// \param guards  that share a module of the link
+/// holds, and a part of what more it can be. Energy-stable, it moves its ends about as one whose
+/// force is the mean over the steps on both sides does; springs only where they are stiff for a
+/// step. \param others  that share a module of the link
 void makeLinear(scene::Lia& lia,
                 const RatedNetwork& networks,
                 const scene::Scene& now,
                 double part,
-                int guards) {
+                int others) {
   const scene::Law& law = scene::lawOf(lia.type);
   const Slopes steepest = slopesInHand(now, lia);
   const double stiffness = law.has_linear_part ? now.valueOf(lia.stiffness) : 0.0;
@@ -97,8 +97,8 @@ void makeLinear(scene::Lia& lia,
   const double z = (is_unforeseen ? 0.5 : 1.0) *  // of the steps of an end that seems to stay
                    (damping + part * (steepest.damping.highest - damping));
   const double load = networks.inverseMassStep2(lia) * k + 2.0 * networks.inverseMassStep(lia) * z;
-  const double mean = networks.isExplicit(lia) ? 1.0 : 1.0 + 0.25 * guards * std::max(load, 0.0);
-  const bool is_mean = isContact(lia) || guards * load > 1.0;
+  const double mean = networks.isExplicit(lia) ? 1.0 : 1.0 + 0.25 * others * std::max(load, 0.0);
+  const bool is_mean = isContact(lia) || others * load > 1.0;
   lia.type = scene::LiaType::kSpringDamper;
   lia.scheme = scene::Scheme::kExplicit;
   lia.stiffness = {is_mean ? k / mean : k};
@@ -110,13 +110,13 @@ scene::Scene linearAround(const Hands& hands,
                           const RatedNetwork& networks,
                           scene::Scene now,
                           const Parts& parts) {
-  const std::vector<int> guards = guardsOn(now);
+  const std::vector<int> others = energyStableLinksOn(now);
   std::vector<scene::Lia> lias;
   for (scene::Lia lia : now.lias) {
     if (!hasLinearPart(lia) || isBent(lia)) {
       const double of_others = parts.closes || !isContact(lia) ? parts.of_others : 0.0;
       makeLinear(lia, networks, now, isAt(hands, lia) ? parts.of_slices : of_others,
-                 std::max(guards[at(lia.a)], guards[at(lia.b)]));
+                 std::max(others[at(lia.a)], others[at(lia.b)]));
     }
     if (now.valueOf(lia.stiffness) != 0.0 || now.valueOf(lia.damping) != 0.0) {
       lias.push_back(std::move(lia));
@@ -195,7 +195,7 @@ bool mayLetGo(const scene::Scene& scene, int slice, const Parts& parts) {
 
 bool hasGuards(const scene::Scene& scene, const Attached& attached) {
   return std::any_of(scene.lias.begin(), scene.lias.end(), [&](const scene::Lia& lia) {
-    return lia.scheme == scene::Scheme::kGuarded &&
+    return lia.scheme == scene::Scheme::kEnergyStable &&
            (attached.nodes.count(lia.a) != 0 || attached.nodes.count(lia.b) != 0);
   });
 }
@@ -324,8 +324,8 @@ double FreeSlices::heldRadius(const Case& one) {
   return spectralRadius(one.state.leftCols(one.state.rows()));
 }
 
-/// False if it grows as much while the slices are held, as what is guarded may once it is explicit:
-/// that tells nothing of the slices.
+/// False if it grows as much while the slices are held, as what is energy-stable may once it is
+/// explicit: that tells nothing of the slices.
 bool FreeSlices::isOfSlices(const Case& one, double radius) {
   return heldRadius(one) - 1.0 < 0.5 * (radius - 1.0);
 }

@@ -12,9 +12,9 @@
 namespace ergotic::physics {
 namespace {
 
-constexpr double kHand = 1.0;     // m
-constexpr double kLeast = 1e-30;  // m
-constexpr double kFar = 1e6;      // m, where no law is flat that holds anything
+constexpr double kHand = 1.0;   // m
+constexpr double kMin = 1e-30;  // m
+constexpr double kFar = 1e6;    // m, where no law is flat that holds anything
 constexpr int kDoublings = 250;
 constexpr double kFall = 1.0;  // s, in which weight and inputs give energy
 
@@ -115,7 +115,7 @@ double LargestNumbers::energy() const {
 
 LargestNumbers::Steepest LargestNumbers::steepestOf(const scene::Lia& lia) const {
   const double energy = this->energy();
-  double apart = std::max(apartAtFirst(lia), kLeast);
+  double apart = std::max(apartAtFirst(lia), kMin);
   double stiffness = stiffnessOf(lia, apart);  // of a curve that begins flat it may be 0
   const bool holds = stiffness > 0.0 || stiffnessOf(lia, std::max(apart, kFar)) > 0.0;
   for (int i = 0; holds && i < kDoublings && stiffness * apart * apart < 2.0 * energy; ++i) {

@@ -23,7 +23,7 @@ class LargestNumbers {
   Steepest steepestOf(const scene::Lia& lia) const;
   /// Largest force of a link, kg m/time_unit^2.
   double forceOf(const scene::Lia& lia) const;
-  /// Largest energy that guarded links hold, kg m^2/time_unit^2.
+  /// Largest energy that energy-stable links hold, kg m^2/time_unit^2.
   double energy() const;
   /// Largest distance of a module from the origin after so many seconds, m.
   double reach(double seconds) const;

@@ -19,8 +19,8 @@ using scene::LiaType;
 using scene::MatType;
 
 constexpr int kPeriods = 2000;
-constexpr double kMostSteps = 3e8;  // modules times audio frames
-constexpr double kScatter = 5e-6;   // of slopes, per period
+constexpr double kMaxSteps = 3e8;  // modules times audio frames
+constexpr double kScatter = 5e-6;  // of slopes, per period
 
 /// Ticks until all sections that move are stepped together again.
 int ticksOfAPeriod(const scene::Scene& scene, const Rates& rates) {
@@ -162,7 +162,7 @@ GrowthSeen watchGrowth(const scene::Scene& linear, const Rates& rates) {
   LinearStepper stepper(linear, rates);
   const double steps = static_cast<double>(stepper.slots()) * stepper.ticks() * rates.ratio;
   GrowthSeen seen;
-  seen.periods = static_cast<int>(std::clamp(kMostSteps / steps, 200.0, double{kPeriods}));
+  seen.periods = static_cast<int>(std::clamp(kMaxSteps / steps, 200.0, double{kPeriods}));
   std::minstd_rand random(1);
   std::uniform_real_distribution<double> number(-1.0, 1.0);
   Eigen::VectorXd state = Eigen::VectorXd::Zero(stepper.numbers());

@@ -23,7 +23,7 @@ constexpr double kMeeting = 30.0;          // of |G| |G^-1|: 1/how near modes ar
 constexpr double kBreathing = 10.0;        // the same of roots of the energy that is kept
 constexpr double kLending = 1000.0;        // and of that which steps near their limit lend
 constexpr double kFadingBreathes = 100.0;  // of what fades, all at once: a bound from far
-constexpr double kMostOff = 5e-10;         // of what G s becomes
+constexpr double kMaxOff = 5e-10;          // of what G s becomes
 constexpr int kPeriodDoublings = 40;
 constexpr double kAlike = 1e-6;     // of places of bodies
 constexpr double kStaying = 1e-10;  // of a body, whatever rounds
@@ -358,7 +358,7 @@ std::optional<LyapunovForm> lyapunovFormOf(const Period& period,
   Form lasting = lastingOf(transposed);
   lasting.rows.transposeInPlace();
   const Form form = joined(lasting, fadingOf(matrix, lastingOf(modes).rows), matrix.cols());
-  if (form.rows.rows() != form.rows.cols() || !(errorOf(form, matrix) <= kMostOff)) {
+  if (form.rows.rows() != form.rows.cols() || !(errorOf(form, matrix) <= kMaxOff)) {
     return std::nullopt;
   }
   std::vector<MatrixXd> roundings;

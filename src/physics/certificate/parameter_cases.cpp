@@ -11,7 +11,7 @@
 namespace ergotic::physics {
 namespace {
 
-constexpr int kMostValues = 9;  // of one parameter
+constexpr int kMaxValues = 9;  // of one parameter
 
 /// Indices of those that something among these modules and points, or a link on them, follows.
 std::vector<int> followedIn(const scene::Scene& scene, const std::set<int>& among) {
@@ -58,7 +58,7 @@ double valueAt(const scene::Parameter& parameter, double part) {
 /// already are.
 int valuesOfEach(std::size_t parameters, int most) {
   int values = 1;
-  while (parameters > 0 && values < kMostValues &&
+  while (parameters > 0 && values < kMaxValues &&
          std::pow(values + 1, parameters) <= static_cast<double>(most)) {
     ++values;
   }
@@ -84,10 +84,10 @@ std::vector<scene::Scene> parameterCases(const scene::Scene& scene,
   const int values = valuesOfEach(followed.size(), most);
   const auto combinations = static_cast<int>(std::pow(values, followed.size()));
   for (const int p : followed) {
-    for (int i = 0; values < kMostValues && most > kMostValues && i < kMostValues; ++i) {
+    for (int i = 0; values < kMaxValues && most > kMaxValues && i < kMaxValues; ++i) {
       cases.push_back(scene);
       scene::Parameter& parameter = cases.back().parameters[at(p)];
-      parameter.value = valueAt(parameter, static_cast<double>(i) / (kMostValues - 1));
+      parameter.value = valueAt(parameter, static_cast<double>(i) / (kMaxValues - 1));
     }
   }
   for (int i = 0; values > 1 && i < combinations; ++i) {

@@ -112,12 +112,12 @@ int PortLinks::driving(const scene::Port& port) const {
   return found == links.end() ? -1 : *found;
 }
 
-/// A guard has an effect only if forces move at least one end of the link.
+/// A tank has an effect only if forces move at least one end of the link.
 bool PortLinks::isHeldBack(int l) const {
   const auto moves = [this](int mat) {
     return network_.nodes[at(mat)].is_free || network_.point_of[at(mat)] >= 0;
   };
-  return scene_.lias[at(l)].scheme == scene::Scheme::kGuarded &&
+  return scene_.lias[at(l)].scheme == scene::Scheme::kEnergyStable &&
          (moves(link(l).a) || moves(link(l).b));
 }
 

@@ -29,7 +29,7 @@ class PortLinks {
   /// The link of the slice with most damping, -1: none.
   int mostDamped(const scene::Port& port) const;
   /// A link of the slice that is below 0 somewhere and drives a hand, -1: none. Not one that a
-  /// guard holds back.
+  /// tank holds back.
   int driving(const scene::Port& port) const;
 
   /// Resistance of the links of a module to one step of it, with everything else held.

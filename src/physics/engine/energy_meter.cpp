@@ -11,7 +11,7 @@ namespace ergotic::physics {
 namespace {
 
 bool isSpring(const LinkRun& run) {
-  return scene::lawOf(run.law).kind == scene::Law::Kind::kLinear && !run.guarded;
+  return scene::lawOf(run.law).kind == scene::Law::Kind::kLinear && !run.energy_stable;
 }
 
 /// Whether audio inputs change its stiffness, which is work that no balance has.
@@ -269,7 +269,7 @@ LinkWork EnergyMeter<Real>::workOf(std::size_t r, const State<Real>& state) cons
   LinkWork work = state.work()[r];
   const bool is_slow_done = layout_.isBetweenSlowSteps(run, state.frame());
   const bool is_done =
-      !run.guarded || state.frame() % layout_.sections[at(run.section)].divisor == 0;
+      !run.energy_stable || state.frame() % layout_.sections[at(run.section)].divisor == 0;
   if (is_slow_done && is_done) {
     return work;
   }

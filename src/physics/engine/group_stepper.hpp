@@ -89,7 +89,7 @@ class GroupStepper {
     }
   }
 
-  /// Inputs, hands and guarded links give theirs, forces are heard and counted.
+  /// Inputs, hands and energy-stable links give theirs, forces are heard and counted.
   /// \pre those of all other groups on this one are there
   void end(const Group& group, const Frames& frames) noexcept {
     State<Real>& state = mechanism_.state;
@@ -99,8 +99,8 @@ class GroupStepper {
     }
     mechanism_.points.scatter(group, state);
     mechanism_.touches.press(group, last, *mechanism_.coefficients, mechanism_.meter, state);
-    mechanism_.guarded.step(group, frames.first, last, *mechanism_.coefficients, mechanism_.stepper,
-                            state);
+    mechanism_.energy_stable.step(group, frames.first, last, *mechanism_.coefficients,
+                                  mechanism_.stepper, state);
     mechanism_.meter.endFrame(group, last, state);
     mechanism_.interpolation.collect(group, last, state);
     mechanism_.interpolation.answer(group, last, state);

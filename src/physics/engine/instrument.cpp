@@ -41,7 +41,7 @@ void placeInitialState(const Rates& rates, Mechanism<Real>& mechanism) {
     fillProxies(group, mechanism.state);
   }
   for (std::size_t r = 0; mechanism.state.isMetered() && r < mechanism.layout.runs.size(); ++r) {
-    if (remembers(mechanism.layout.runs[r]) && !mechanism.layout.runs[r].guarded) {
+    if (remembers(mechanism.layout.runs[r]) && !mechanism.layout.runs[r].energy_stable) {
       mechanism.stepper.storeAtStart(r, mechanism.coefficients->runs[r], mechanism.state);
     }
   }

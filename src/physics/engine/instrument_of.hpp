@@ -103,7 +103,7 @@ class InstrumentOf final : public Instrument {
     }
     auto* mine = static_cast<CoefficientsOf<Real>*>(next.release());
     if (mechanism_->state.frame() > 0) {
-      mechanism_->guarded.retune(*mechanism_->coefficients, *mine, mechanism_->state);
+      mechanism_->energy_stable.retune(*mechanism_->coefficients, *mine, mechanism_->state);
     }
     std::unique_ptr<Coefficients> old = std::move(mechanism_->coefficients);
     mechanism_->coefficients.reset(mine);
@@ -131,17 +131,17 @@ class InstrumentOf final : public Instrument {
       mechanism_->meter.read(*mechanism_->coefficients, mechanism_->state, to);
     }
   }
-  std::vector<GuardReport> makeGuardReports() const override {
-    std::vector<GuardReport> reports = mechanism_->guarded.makeReports();
+  std::vector<TankReport> makeTankReports() const override {
+    std::vector<TankReport> reports = mechanism_->energy_stable.makeReports();
     const std::vector<int> written = liasAsWritten(scene(), *mechanism_->scene);
-    for (GuardReport& report : reports) {
+    for (TankReport& report : reports) {
       report.lia = written[at(report.lia)];
     }
     return reports;
   }
-  void readGuards(std::vector<GuardReport>& to) const noexcept override {
+  void readTanks(std::vector<TankReport>& to) const noexcept override {
     if (!is_under_way_) {
-      mechanism_->guarded.read(mechanism_->state, to);
+      mechanism_->energy_stable.read(mechanism_->state, to);
     }
   }
 
@@ -171,7 +171,7 @@ class InstrumentOf final : public Instrument {
     const Real* x = mechanism_->state.x();
     const auto is_finite = [](Real v) { return std::isfinite(v); };
     return is_under_way_ || (std::all_of(x, x + mechanism_->layout.slots(), is_finite) &&
-                             mechanism_->guarded.isFinite(mechanism_->state));
+                             mechanism_->energy_stable.isFinite(mechanism_->state));
   }
 
  private:

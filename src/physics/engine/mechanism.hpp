@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "physics/engine/energy_meter.hpp"
-#include "physics/engine/guarded_runs.hpp"
+#include "physics/engine/energy_stable_runs.hpp"
 #include "physics/engine/pickups.hpp"
 #include "physics/engine/points.hpp"
 #include "physics/engine/sleeper.hpp"
@@ -41,7 +41,7 @@ struct Mechanism {
         stepper(layout, options),
         interpolation(layout),
         points(*scene, layout, options.isa),
-        guarded(*scene, layout, groups, points, state),
+        energy_stable(*scene, layout, groups, points, state),
         pickups(layout),
         sleeper(*scene, layout, points, *coefficients),
         touches(*scene, written, rates, layout, *coefficients) {
@@ -59,7 +59,7 @@ struct Mechanism {
   Stepper<Real> stepper;
   SliceInterpolation<Real> interpolation;
   Points<Real> points;
-  GuardedRuns<Real> guarded;
+  EnergyStableRuns<Real> energy_stable;
   Pickups<Real> pickups;
   Sleeper<Real> sleeper;
   Touches<Real> touches;

@@ -12,9 +12,9 @@ namespace {
 constexpr int kHole = 16;  // slots between two spans that are as quickly looked at
 
 /// How much the gap of a link changes if every coordinate moves by one.
-double weightOf(const GuardedLink& link) {
+double weightOf(const EnergyStableLink& link) {
   double sum = 0.0;
-  for (const GuardedTerm& term : link.terms) {
+  for (const EnergyStableTerm& term : link.terms) {
     sum += std::abs(term.weight[0]) + std::abs(term.weight[1]) + std::abs(term.weight[2]);
   }
   return sum;
@@ -37,8 +37,8 @@ Real largestOf(const Real* values, const std::pair<int, int>& span) noexcept {
 }  // namespace
 
 template <class Real>
-NearLinks<Real>::NearLinks(const std::vector<GuardedLink>& links) : found_(links.size()) {
-  const auto mayWait = [](const GuardedLink& link) { return link.may_wait; };
+NearLinks<Real>::NearLinks(const std::vector<EnergyStableLink>& links) : found_(links.size()) {
+  const auto mayWait = [](const EnergyStableLink& link) { return link.may_wait; };
   const bool are_many =
       std::count_if(links.begin(), links.end(), mayWait) >= static_cast<std::ptrdiff_t>(kFewest);
   for (std::size_t first = 0; first < links.size();) {
@@ -64,11 +64,11 @@ NearLinks<Real>::NearLinks(const std::vector<GuardedLink>& links) : found_(links
 
 /// Finds the ranges of all slots whose motion can close a gap.
 template <class Real>
-void NearLinks<Real>::findSpans(const std::vector<GuardedLink>& links) {
+void NearLinks<Real>::findSpans(const std::vector<EnergyStableLink>& links) {
   std::vector<int> slots;
   for (const Tile& tile : tiles_) {
     for (std::size_t l = tile.first; tile.clearance >= 0 && l < tile.first + tile.count; ++l) {
-      for (const GuardedTerm& term : links[l].terms) {
+      for (const EnergyStableTerm& term : links[l].terms) {
         slots.push_back(term.slot);
       }
     }

@@ -7,18 +7,18 @@
 #include <utility>
 #include <vector>
 
-#include "physics/engine/guarded.hpp"
+#include "physics/engine/energy_stable.hpp"
 
 namespace ergotic::physics {
 
-/// The guarded links that a step has to work out. Contacts of one body with all of another come in
-/// tiles, and a tile whose narrowest gap cannot have closed yet is skipped: a step changes the gap
-/// of a link by at most W max |d|, W the sum of the weights of its modules. The result is the same,
-/// bit for bit. Source: docs/physics/schemes.md, "Energy-stable links".
+/// The energy-stable links that a step has to work out. Contacts of one body with all of another
+/// come in tiles, and a tile whose narrowest gap cannot have closed yet is skipped: a step changes
+/// the gap of a link by at most W max |d|, W the sum of the weights of its modules. The result is
+/// the same, bit for bit. Source: docs/physics/schemes.md, "Energy-stable links".
 template <class Real>
 class NearLinks {
  public:
-  explicit NearLinks(const std::vector<GuardedLink>& links);
+  explicit NearLinks(const std::vector<EnergyStableLink>& links);
 
   /// Tiles that may be passed over.
   std::size_t waiting() const noexcept { return waiting_; }
@@ -48,7 +48,7 @@ class NearLinks {
     bool found = false;  // in this step
   };
 
-  void findSpans(const std::vector<GuardedLink>& links);
+  void findSpans(const std::vector<EnergyStableLink>& links);
 
   std::vector<Tile> tiles_;
   std::size_t waiting_ = 0;

@@ -196,8 +196,8 @@ class Points {
 
   /// The work of moving a place is that of the force there over how far the place has gone across
   /// the string. A damper there takes Z v^2 of the string itself: what it seems to pay for the
-  /// place is at most Z/4 (how fast the place goes)^2. Guarded links give back what the string gave
-  /// them wherever they lie, so moving them brings nothing.
+  /// place is at most Z/4 (how fast the place goes)^2. Energy-stable links give back what the
+  /// string gave them wherever they lie, so moving them brings nothing.
   void pay(std::size_t p, const PlaceCoefficients& allowed, State<Real>& state) const noexcept {
     const PlacePoint& point = layout_.places[p];
     PlaceForce<Real>* force = state.placeForces() + point.coordinate;

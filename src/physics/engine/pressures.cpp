@@ -9,7 +9,7 @@
 namespace ergotic::physics {
 namespace {
 
-int pressingOf(const Layout& layout, const GuardedRef& ref) {
+int pressingOf(const Layout& layout, const EnergyStableRef& ref) {
   const auto& all = layout.pressings;
   const auto found = std::find_if(all.begin(), all.end(), [&](const Pressing& pressing) {
     return pressing.run == ref.run && pressing.link == ref.link;
@@ -20,9 +20,9 @@ int pressingOf(const Layout& layout, const GuardedRef& ref) {
 }  // namespace
 
 template <class Real>
-Pressures<Real>::Pressures(const Layout& layout, const std::vector<GuardedGroup>& groups)
+Pressures<Real>::Pressures(const Layout& layout, const std::vector<EnergyStableGroup>& groups)
     : layout_(layout) {
-  for (const GuardedGroup& group : groups) {
+  for (const EnergyStableGroup& group : groups) {
     std::vector<Friction>& frictions = frictions_.emplace_back();
     for (std::size_t l = 0; l < group.links.size(); ++l) {
       if (scene::sticks(layout.runs[group.links[l].run].law)) {
@@ -35,7 +35,7 @@ Pressures<Real>::Pressures(const Layout& layout, const std::vector<GuardedGroup>
 
 template <class Real>
 const Pressure<Real>* Pressures<Real>::read(std::size_t group,
-                                            const GuardedLaw<Real>* laws,
+                                            const EnergyStableLaw<Real>* laws,
                                             State<Real>& state) noexcept {
   for (const Friction& friction : frictions_[group]) {
     Pressure<Real>& to = pressed_[group][friction.link];

@@ -4,8 +4,8 @@
 #include <cstddef>
 #include <vector>
 
-#include "physics/engine/guarded.hpp"
-#include "physics/layout/guarded_groups.hpp"
+#include "physics/engine/energy_stable.hpp"
+#include "physics/layout/energy_stable_groups.hpp"
 #include "physics/layout/layout.hpp"
 #include "physics/state/state.hpp"
 
@@ -17,12 +17,12 @@ namespace ergotic::physics {
 template <class Real>
 class Pressures {
  public:
-  Pressures(const Layout& layout, const std::vector<GuardedGroup>& groups);
+  Pressures(const Layout& layout, const std::vector<EnergyStableGroup>& groups);
 
-  /// Reads the normal forces of the guarded links of a group.
+  /// Reads the normal forces of the energy-stable links of a group.
   /// \param laws  [links] of it. Realtime: yes
   const Pressure<Real>* read(std::size_t group,
-                             const GuardedLaw<Real>* laws,
+                             const EnergyStableLaw<Real>* laws,
                              State<Real>& state) noexcept;
 
  private:

@@ -18,10 +18,10 @@ constexpr double kClipped = 0.99;  // share of what psi asks for, from which on 
 
 template <class Real>
 Tanks<Real>::Tanks(const Layout& layout,
-                   const std::vector<GuardedGroup>& groups,
+                   const std::vector<EnergyStableGroup>& groups,
                    State<Real>& state)
     : layout_(layout) {
-  for (const GuardedGroup& group : groups) {
+  for (const EnergyStableGroup& group : groups) {
     bodies_.emplace_back();
     for (const std::size_t r : group.tanks) {
       Body body;
@@ -191,7 +191,7 @@ ERGOTIC_REALTIME bool Tanks<Real>::areFinite(const State<Real>& state) const noe
 }
 
 template <class Real>
-void Tanks<Real>::addReports(std::vector<GuardReport>& to) const {
+void Tanks<Real>::addReports(std::vector<TankReport>& to) const {
   for (const std::vector<Body>& group : bodies_) {
     for (const Body& body : group) {
       to.push_back({layout_.runs[body.run].lias.front(), 0, 0});
@@ -200,7 +200,7 @@ void Tanks<Real>::addReports(std::vector<GuardReport>& to) const {
 }
 
 template <class Real>
-ERGOTIC_REALTIME void Tanks<Real>::read(const State<Real>& state, GuardReport* to) const noexcept {
+ERGOTIC_REALTIME void Tanks<Real>::read(const State<Real>& state, TankReport* to) const noexcept {
   for (const std::vector<Body>& group : bodies_) {
     for (const Body& body : group) {
       const auto& tank = *state.arena().template at<TankState>(body.state_at);

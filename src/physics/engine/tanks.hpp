@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "ergotic/physics/engine/instrument.hpp"
-#include "physics/layout/guarded_groups.hpp"
+#include "physics/layout/energy_stable_groups.hpp"
 #include "physics/state/coefficients.hpp"
 #include "physics/state/state.hpp"
 
@@ -35,16 +35,17 @@ template <class Real>
 class Tanks {
  public:
   /// Adds its entries to the arena. \pre the arena is not allocated
-  Tanks(const Layout& layout, const std::vector<GuardedGroup>& groups, State<Real>& state);
+  Tanks(const Layout& layout, const std::vector<EnergyStableGroup>& groups, State<Real>& state);
 
   /// Fills the tanks of a group, in the first frame. Realtime: yes
   void start(std::size_t group, const CoefficientsOf<Real>& c, State<Real>& state) noexcept;
 
   /// Adds the forces of those of a group (of `groups`) to the modules.
-  /// \pre all forces but those of guarded links are there. Realtime: yes. Cost: O(links + modules)
+  /// \pre all forces but those of energy-stable links are there. Realtime: yes. Cost: O(links +
+  /// modules)
   void exert(std::size_t group, const CoefficientsOf<Real>& c, State<Real>& state) noexcept;
 
-  /// Answers what guarded links have added to the modules since. Realtime: yes
+  /// Answers what energy-stable links have added to the modules since. Realtime: yes
   void answer(std::size_t group, const CoefficientsOf<Real>& c, State<Real>& state) noexcept;
 
   /// Tanks follow other coefficients. Realtime: yes
@@ -55,16 +56,16 @@ class Tanks {
   /// True if what all of them hold is a finite number. Realtime: yes
   bool areFinite(const State<Real>& state) const noexcept;
   /// Adds one report for each tank, which names its first link. Realtime: no
-  void addReports(std::vector<GuardReport>& to) const;
+  void addReports(std::vector<TankReport>& to) const;
   /// \param to  the first of these. Realtime: yes
-  void read(const State<Real>& state, GuardReport* to) const noexcept;
+  void read(const State<Real>& state, TankReport* to) const noexcept;
 
  private:
   struct Body {
     std::size_t run = 0;
     int first = 0;  ///< slot, of all between its modules
     int count = 0;
-    bool is_lone = false;  ///< no other guarded link is in its group
+    bool is_lone = false;  ///< no other energy-stable link is in its group
     std::size_t state_at = 0;
     std::size_t force_at = 0;  ///< [count] of the last step, opposite to what modules feel
     std::vector<Real> slope;   ///< [count] of the sum of the links over the modules

@@ -76,7 +76,7 @@ class Touches {
   }
 
   /// The step of what hands hold in a group that ends with frame `last`, blocks that go through a
-  /// tick alone left out. \pre all other forces are there, but those of guarded links
+  /// tick alone left out. \pre all other forces are there, but those of energy-stable links
   void press(const Group& group,
              std::int64_t last,
              const CoefficientsOf<Real>& c,

@@ -13,11 +13,11 @@ constexpr int kPasses = 30;  // where two roots are about to meet, each halves w
 /// The largest g with g + c mu(g) = free, 0 if there is none. Newton's method from above: where mu
 /// is convex it cannot pass a root, and where the tangent goes through 0 there is none.
 template <class Real>
-Real slipOf(const GuardedLaw<Real>& law, Real c, Real free) noexcept {
+Real slipOf(const EnergyStableLaw<Real>& law, Real c, Real free) noexcept {
   const Real close = Real(4) * std::numeric_limits<Real>::epsilon() * free;
   Real g = free;
   for (int pass = 0; pass < kPasses && g > Real(0); ++pass) {
-    const GuardedForce<Real> mu = law.slip(g);
+    const EnergyStableForce<Real> mu = law.slip(g);
     const Real excess = g + c * mu.force - free;
     const Real slope = Real(1) + c * mu.slope;
     if (std::abs(excess) <= close) {
@@ -33,8 +33,8 @@ Real slipOf(const GuardedLaw<Real>& law, Real c, Real free) noexcept {
 template <class Real>
 Real exertDry(const Slide<Real>& s,
               Real budget,
-              const GuardedLaw<Real>& law,
-              GuardedState<Real>& state) noexcept {
+              const EnergyStableLaw<Real>& law,
+              EnergyStableState<Real>& state) noexcept {
   const Real most = s.normal * law.slip(Real(0)).force;
   const bool may_slip = (s.goes_on && state.phase != Real(0)) || s.free > s.give * most;
   const Real slip = may_slip ? slipOf(law, s.give * s.normal, s.free) : Real(0);
@@ -51,11 +51,11 @@ Real exertDry(const Slide<Real>& s,
 
 template float exertDry(const Slide<float>&,
                         float,
-                        const GuardedLaw<float>&,
-                        GuardedState<float>&) noexcept;
+                        const EnergyStableLaw<float>&,
+                        EnergyStableState<float>&) noexcept;
 template double exertDry(const Slide<double>&,
                          double,
-                         const GuardedLaw<double>&,
-                         GuardedState<double>&) noexcept;
+                         const EnergyStableLaw<double>&,
+                         EnergyStableState<double>&) noexcept;
 
 }  // namespace ergotic::physics

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "physics/laws/guarded_force.hpp"
+#include "physics/laws/energy_stable_force.hpp"
 
 /// Friction that sticks. Source: docs/physics/schemes.md, "Friction with stiction".
 namespace ergotic::physics {
@@ -22,8 +22,8 @@ struct Slide {
 template <class Real>
 Real exertDry(const Slide<Real>& slide,
               Real budget,
-              const GuardedLaw<Real>& law,
-              GuardedState<Real>& state) noexcept;
+              const EnergyStableLaw<Real>& law,
+              EnergyStableState<Real>& state) noexcept;
 
 /// Work that the friction force takes from the motion; below 0 it gives. Realtime: yes
 template <class Real>

@@ -5,7 +5,7 @@
 #include <numeric>
 
 #include "at.hpp"
-#include "physics/layout/guarded_groups.hpp"
+#include "physics/layout/energy_stable_groups.hpp"
 #include "physics/layout/partition.hpp"
 
 namespace ergotic::physics {
@@ -51,9 +51,9 @@ class Dealer {
     for (std::size_t k = 0; k < layout_.pickups.size(); ++k) {
       dealPickup(k, groupOf(scene_.mats[at(scene_.outputs[k].point.mat)].section));
     }
-    const std::vector<GuardedGroup> guarded = guardedGroupsOf(layout_);
-    for (std::size_t g = 0; g < guarded.size(); ++g) {
-      byIndex(guarded[g].group).guarded.push_back(g);
+    const std::vector<EnergyStableGroup> energy_stable = energyStableGroupsOf(layout_);
+    for (std::size_t g = 0; g < energy_stable.size(); ++g) {
+      byIndex(energy_stable[g].group).energy_stable.push_back(g);
     }
     for (Group& group : groups_.running) {
       group.has_only_lone = hasOnlyLone(group);
@@ -73,7 +73,7 @@ class Dealer {
       blocks += std::count(group.sections.begin(), group.sections.end(), block.section) > 0 ? 1 : 0;
     }
     return !has_modules && blocks == group.lone.size() && group.runs.empty() &&
-           group.guarded.empty() && group.taps.empty() && group.places.empty() &&
+           group.energy_stable.empty() && group.taps.empty() && group.places.empty() &&
            group.interpolated.empty() && group.projections.empty() && group.feeds.empty() &&
            group.followers.empty() && group.pickups.empty() && group.proxies.empty();
   }
@@ -109,7 +109,7 @@ class Dealer {
   void dealRuns() {
     for (std::size_t r = 0; r < layout_.runs.size(); ++r) {
       const LinkRun& run = layout_.runs[r];
-      if (!run.guarded && run.block < 0) {
+      if (!run.energy_stable && run.block < 0) {
         byIndex(run.group).runs.push_back(r);
       }
     }

@@ -22,7 +22,7 @@ struct LoneBlock {
 struct Group {
   std::vector<int> sections;                ///< Layout::sections
   std::vector<std::size_t> runs;            ///< Layout::runs, explicit ones
-  std::vector<std::size_t> guarded;         ///< guardedGroupsOf
+  std::vector<std::size_t> energy_stable;   ///< energyStableGroupsOf
   std::vector<std::size_t> taps;            ///< Layout::taps
   std::vector<std::size_t> places;          ///< Layout::places
   std::vector<std::size_t> interpolated;    ///< Layout::interpolated, seen by its sections

@@ -44,7 +44,7 @@ struct End {
 /// `share` of the force at every step, so the mean over its own step.
 struct LinkRun {
   scene::LiaType law = scene::LiaType::kSpringDamper;
-  bool guarded = false;
+  bool energy_stable = false;
   int dimensions = 0;  ///< 0: scalar, else the coordinates a distance is taken over
   int section = 0;     ///< section whose steps it follows
   int section_a = 0;   ///< section of the modules at end a
@@ -54,7 +54,7 @@ struct LinkRun {
   double share = 1.0;
   bool interpolated = false;  ///< one end is a slice that is interpolated: then none is slow
   bool presses = false;       ///< frictions read its forces
-  int tank = -1;              ///< index in Scene::tanks: its links are guarded by this one
+  int tank = -1;              ///< index in Scene::tanks: from which its links take their energy
   bool is_mean = false;       ///< Tank::is_mean
   static constexpr int kHeldGroup = -1;
   int group = kHeldGroup;  ///< group that steps it, as in Layout::group_of_section
@@ -228,9 +228,9 @@ struct Layout {
            (now + divisorOf(run.section)) % divisorOf(run.slow_section) == 0;
   }
   /// True if at the start of frame `now` that last step is behind, and the next one is to come.
-  /// Guarded runs give their force with the last frame of a step, others with the first.
+  /// Energy-stable runs give their force with the last frame of a step, others with the first.
   bool isBetweenSlowSteps(const LinkRun& run, std::int64_t now) const noexcept {
-    const int step = run.guarded ? 1 : divisorOf(run.section);
+    const int step = run.energy_stable ? 1 : divisorOf(run.section);
     return run.slow_section < 0 || (now + step - 1) % divisorOf(run.slow_section) < step;
   }
 

@@ -163,8 +163,8 @@ void placeLink(const scene::Scene& scene, int l, Ends& ends, LinkRun& run, End& 
   a = ends.seen(lia.a, lia.b, frame.projects_a, frame.section);
   b = ends.seen(lia.b, lia.a, frame.projects_b, frame.section);
   run.law = lia.type;
-  run.guarded = lia.scheme == scene::Scheme::kGuarded;
-  run.tank = run.guarded && lia.type == scene::LiaType::kCubic ? lia.tank : -1;
+  run.energy_stable = lia.scheme == scene::Scheme::kEnergyStable;
+  run.tank = run.energy_stable && lia.type == scene::LiaType::kCubic ? lia.tank : -1;
   run.is_mean = run.tank >= 0 && scene.tanks[at(run.tank)].is_mean;
   run.dimensions = geometry == Geometry::kScalar ? 0 : dimensionsOf(geometry);
   run.section_a = a.section;
@@ -318,9 +318,9 @@ void placeLinks(const scene::Scene& scene, const Rates& rates, Layout& layout) {
     placeLink(scene, l, ends, run, a, b);
     run.block = block_of_lia[at(l)];
     run.presses = pressing.count(l) > 0;
-    const Key key{run.law,      run.guarded,      run.presses,   run.dimensions,
-                  run.section,  run.section_a,    run.section_b, run.stride_a,
-                  run.stride_b, run.slow_section, run.block,     run.tank};
+    const Key key{run.law,      run.energy_stable, run.presses,   run.dimensions,
+                  run.section,  run.section_a,     run.section_b, run.stride_a,
+                  run.stride_b, run.slow_section,  run.block,     run.tank};
     const auto [found, is_new] = known.emplace(key, layout.runs.size());
     if (is_new) {
       layout.runs.push_back(std::move(run));

@@ -14,8 +14,9 @@ constexpr std::size_t kShortest = 8;  // below it ends are sooner gathered one b
 
 bool isForSpans(const LinkRun& run) {
   const bool is_spatial = (run.law == LiaType::kSpringDamper || run.law == LiaType::kContact) &&
-                          !run.guarded && run.dimensions > 0 && run.section_a == run.section_b &&
-                          run.slow_section < 0 && run.stride_a == run.stride_b;
+                          !run.energy_stable && run.dimensions > 0 &&
+                          run.section_a == run.section_b && run.slow_section < 0 &&
+                          run.stride_a == run.stride_b;
   return is_spatial || run.tank >= 0;
 }
 

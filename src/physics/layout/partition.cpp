@@ -57,10 +57,11 @@ class Split {
       }
     }
     for (const LinkRun& run : layout_.runs) {
-      if (!run.guarded || run.interpolated || isHeld(run.section_a) == isHeld(run.section_b)) {
+      if (!run.energy_stable || run.interpolated ||
+          isHeld(run.section_a) == isHeld(run.section_b)) {
         continue;
       }
-      // A guarded link foresees the step of both of its ends, but that of a slower one.
+      // An energy-stable link foresees the step of both of its ends, but that of a slower one.
       const int held = isHeld(run.section_a) ? run.section_a : run.section_b;
       if (held != run.slow_section) {
         return release(held);

@@ -48,20 +48,20 @@ class Planner {
           Offence{section_.place, "no springs join free modules in it"});
     }
     for (const LinearPart& part : plan_.linear.parts) {
-      if (part.mats.size() > at(kMostModalModules)) {
+      if (part.mats.size() > at(kMaxModalModules)) {
         return Offence{section_.place, "springs join " + std::to_string(part.mats.size()) +
                                            " modules, allowed: at most " +
-                                           std::to_string(kMostModalModules) + " for modes"};
+                                           std::to_string(kMaxModalModules) + " for modes"};
       }
     }
     if (std::optional<Offence> offence = findTouches()) {
       return offence;
     }
-    if (plan_.touches.size() > at(kMostTouches)) {
+    if (plan_.touches.size() > at(kMaxModalTouches)) {
       const std::string count = std::to_string(plan_.touches.size()) +
                                 " of its modules are touched by what is not part of the modes, "
                                 "allowed: at most " +
-                                std::to_string(kMostTouches);
+                                std::to_string(kMaxModalTouches);
       const std::optional<Offence>& offence = plan_.linear.offence;
       return offence ? Offence{offence->place, offence->what + "; " + count}
                      : Offence{section_.place, count};

@@ -30,9 +30,8 @@ struct ModalPlan {
   ModalError error;              ///< error of leaving modes out
 };
 
-constexpr int kMostModalModules =
-    3000;                         ///< of one part: eigenvectors fill 8 bytes times its square
-constexpr int kMostTouches = 64;  ///< of one section
+constexpr int kMaxModalModules = 3000;  ///< of one part: eigenvectors fill 8 bytes times its square
+constexpr int kMaxModalTouches = 64;    ///< of one section
 
 /// Plans the modes of one section. \return false if it stays a network, which only
 /// kAutomaticModes allows; `notes` is told in either case

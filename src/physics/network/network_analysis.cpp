@@ -15,14 +15,14 @@ constexpr int kPowerIterations = 60;
 constexpr double kRounding = 1e-9;
 constexpr int kCheapNodes = 20000;         // factorised even if the bounds suffice
 constexpr int kLargestComponent = 200000;  // factorised at all
-constexpr double kMostSolutions = 2e6;     // places of moving links times nodes
+constexpr double kMaxSolutions = 2e6;      // places of moving links times nodes
 
 bool areMovingLinksCheap(const NetworkBound& network) {
   double places = 0.0;
   for (const NetworkBound::MovingLink& link : network.movingLinks()) {
     places += static_cast<double>(link.places.size());
   }
-  return places * network.nodes() <= kMostSolutions;
+  return places * network.nodes() <= kMaxSolutions;
 }
 
 /// The longest step that a bound at this one allows: the eigenvalue grows at least as h and at most

@@ -18,7 +18,7 @@ namespace ergotic::physics {
 namespace {
 
 /// (w h)^2 of a matched module, up to 0.1 % below half the rate.
-constexpr double kMostAngle2 = 9.85;
+constexpr double kMaxAngle2 = 9.85;
 
 }  // namespace
 
@@ -196,7 +196,7 @@ void RatedNetwork::addModules(Builder& to, bool plain) const {
     // Alone, its pole is that of the continuous oscillator: stable, unless rounding makes a double
     // one of it at half the rate.
     const bool is_safe = is_linked_[at(m)] == 0 && node.is_matched &&
-                         k.highest / node.mass.range.lowest * step * step <= kMostAngle2;
+                         k.highest / node.mass.range.lowest * step * step <= kMaxAngle2;
     if (!node.is_free || divisorOfMat(m) != to.divisor || !is_member || is_safe) {
       continue;
     }

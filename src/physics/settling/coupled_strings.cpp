@@ -28,13 +28,13 @@ using algebra::DampedPole;
 
 constexpr double kInTuneCents = 1e-4;
 constexpr double kSamePole = 1e-12;  // relative
-constexpr int kMostTrials = 20;      // of the stiffness
-constexpr int kMostSteps = 30;       // of inverse iteration
-constexpr double kLeastScale = 0.25;
-constexpr double kMostScale = 4.0;
+constexpr int kMaxTrials = 20;       // of the stiffness
+constexpr int kMaxSteps = 30;        // of inverse iteration
+constexpr double kMinScale = 0.25;
+constexpr double kMaxScale = 4.0;
 // How alike the mode and that of a string between grounds are, along the string: less is another
 // one, as of a string whose end is free (0.85 and 0.51).
-constexpr double kLeastLikeness = 0.93;
+constexpr double kMinLikeness = 0.93;
 
 /// k u u^T and z u u^T on what a link joins, in units of a step.
 struct Load {
@@ -245,7 +245,7 @@ class Surroundings {
 
 /// The pole that Newton's iteration from a guess converges to; none if it does not.
 std::optional<DampedPole> poleFrom(const Surroundings::Equations& equations, DampedPole guess) {
-  for (int i = 0; i < kMostSteps; ++i) {
+  for (int i = 0; i < kMaxSteps; ++i) {
     std::optional<DampedPole> next = algebra::refinedPole(equations.both, equations.pull, guess);
     if (!next || !std::isfinite(std::abs(next->w))) {
       return std::nullopt;
@@ -276,13 +276,13 @@ class CoupledTuning {
     double off_before = offBy(before);
     first_cents_ = off_before;
     double now = -2.0 * off_before * std::log(2.0) / 1200.0;
-    for (int i = 0; i < kMostTrials; ++i) {
+    for (int i = 0; i < kMaxTrials; ++i) {
       const double off = offBy(now);
-      if (!std::isfinite(off) || now < std::log(kLeastScale) || now > std::log(kMostScale)) {
+      if (!std::isfinite(off) || now < std::log(kMinScale) || now > std::log(kMaxScale)) {
         return std::nullopt;
       }
       if (std::abs(off) < kInTuneCents) {
-        const bool is_same = surroundings_.likeness(string_, pole_.shape) >= kLeastLikeness;
+        const bool is_same = surroundings_.likeness(string_, pole_.shape) >= kMinLikeness;
         return is_same ? std::optional(std::exp(now)) : std::nullopt;
       }
       const double next = now - off * (now - before) / (off - off_before);

@@ -15,27 +15,27 @@
 #include "physics/note.hpp"
 #include "physics/settling/steps.hpp"
 #include "physics/step_units.hpp"
-#include "scene/laws/guarded_form.hpp"
+#include "scene/laws/energy_stable_form.hpp"
 #include "scene/laws/law.hpp"
 
 namespace ergotic::physics {
 namespace {
 
-constexpr int kMostSteps = 400;
-constexpr double kBalanced = 1e-11;     // of the largest force on a module
-constexpr double kNothing = 1e-18;      // of that where it is written
-constexpr double kRoundedOff = 1e-15;   // of what differs in a force
-constexpr double kHeld = 1e-3;          // of the largest force: more is not held at all
-constexpr double kLeastPivot = 1e-12;   // of the largest: what is less may move freely
-constexpr double kFirstReachM = 0.01;   // of one step; doubled as long as it is too short
-constexpr double kMostReachM = 1000.0;  // from where a module is written: beyond it falls for ever
+constexpr int kMaxSteps = 400;
+constexpr double kBalanced = 1e-11;    // of the largest force on a module
+constexpr double kNothing = 1e-18;     // of that where it is written
+constexpr double kRoundedOff = 1e-15;  // of what differs in a force
+constexpr double kHeld = 1e-3;         // of the largest force: more is not held at all
+constexpr double kMinPivot = 1e-12;    // of the largest: what is less may move freely
+constexpr double kFirstReachM = 0.01;  // of one step; doubled as long as it is too short
+constexpr double kMaxReachM = 1000.0;  // from where a module is written: beyond it falls for ever
 
 /// A load of the network as it is at rest: f(p) along the shares of its ends.
 struct Pull {
   Shares ends;          // those of end b negative
   double at_0 = 0.0;    // p where all modules are at 0
   double spring = 0.0;  // N/m; or
-  std::optional<scene::GuardedLaw<double>> law;
+  std::optional<scene::EnergyStableLaw<double>> law;
 };
 
 /// Forces, their slopes, and the energy that they have.
@@ -52,7 +52,7 @@ Load loadOf(const Pull& pull, double p) {
   if (pull.law->isContact() && p <= 0.0) {
     return {};
   }
-  const scene::GuardedForce<double> at = pull.law->push(p);
+  const scene::EnergyStableForce<double> at = pull.law->push(p);
   return {at.force, at.slope, pull.law->potential(p)};
 }
 
@@ -83,7 +83,7 @@ class Balance {
     double damping = 0.0;
     assemble(x);
     at_first_ = largest_;
-    for (int step = 0; step < kMostSteps; ++step) {
+    for (int step = 0; step < kMaxSteps; ++step) {
       if (isBalanced()) {
         return x;
       }
@@ -103,7 +103,7 @@ class Balance {
         damping = std::max(4.0 * damping, 1e-3 * stiffness_.diagonal().maxCoeff());
         reach *= 0.5;
       }
-      if (!((x - start_).lpNorm<Eigen::Infinity>() < kMostReachM)) {
+      if (!((x - start_).lpNorm<Eigen::Infinity>() < kMaxReachM)) {
         break;
       }
     }
@@ -141,7 +141,7 @@ class Balance {
       }
       requireScalar(lia);
       requireNoStretch(lia);
-      pull.law = scene::GuardedLaw<double>::make(scene_, lia, StepUnits(scene_, rates, 1));
+      pull.law = scene::EnergyStableLaw<double>::make(scene_, lia, StepUnits(scene_, rates, 1));
       pull.at_0 += pull.law->isContact() ? pull.law->length : -pull.law->length;
       pulls_.push_back(std::move(pull));
     }
@@ -280,7 +280,7 @@ class Balance {
       matrix.diagonal().array() += more;
       const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factors(matrix);
       if (factors.info() == Eigen::Success &&
-          factors.vectorD().minCoeff() > kLeastPivot * factors.vectorD().maxCoeff()) {
+          factors.vectorD().minCoeff() > kMinPivot * factors.vectorD().maxCoeff()) {
         return factors.solve(forces_);
       }
       if (more > 1e3 * most) {

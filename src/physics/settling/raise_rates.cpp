@@ -15,7 +15,7 @@ namespace {
 using scene::MatType;
 using scene::Scene;
 
-constexpr int kMostRaised = 100;  // modules of a section
+constexpr int kMaxRaised = 100;  // modules of a section
 
 bool staysSlow(const scene::Mat& mat) {
   return mat.type == MatType::kSlice || mat.type == MatType::kDriven;
@@ -37,7 +37,7 @@ class Raiser {
             return at(l) < scene_.lias.size() && scene_.lias[at(l)].scheme == scene::Scheme::kAuto;
           });
       if (open != coupling.nonlinear.end() && !hasChaplet(networks, island) &&
-          moved(coupling.slow_section) <= kMostRaised) {
+          moved(coupling.slow_section) <= kMaxRaised) {
         return raise(coupling, scene_.lias[at(*open)]);
       }
     }

@@ -17,7 +17,7 @@ namespace {
 
 using scene::Scheme;
 
-/// Why a link is guarded: a figure that is larger than the explicit scheme bears.
+/// Why a link is energy-stable: a figure that is larger than the explicit scheme bears.
 struct Reason {
   const char* figure = nullptr;  ///< null: it may stay explicit
   double value = 0.0;
@@ -50,10 +50,11 @@ class SchemeChooser {
     const scene::Lia* first = nullptr;
     int links = 0;
     Reason worst;
-    bool guarded = false;
+    bool energy_stable = false;
   };
 
-  /// The guard counts on knowing how far both ends go in a step: not so across rates.
+  /// The energy-stable scheme counts on knowing how far both ends go in a step: not so across
+  /// rates.
   bool isOntoSlowMass(const scene::Lia& lia) const {
     return networks_.crossesRates(lia) && networks_.inverseMass(networks_.slowEnd(lia)) > 0.0;
   }
@@ -98,22 +99,22 @@ class SchemeChooser {
 
   Scheme choose(const scene::Lia& lia) {
     if (scene::sticks(lia.type)) {
-      return Scheme::kGuarded;
+      return Scheme::kEnergyStable;
     }
     const Reason reason = reasonFor(lia);
     if (reason.figure == nullptr) {
       return Scheme::kExplicit;
     }
-    const bool guarded = !isOntoSlowMass(lia);
-    AlikeLinks& alike = alike_[{lia.place.line, lia.place.column, reason.figure, guarded}];
+    const bool energy_stable = !isOntoSlowMass(lia);
+    AlikeLinks& alike = alike_[{lia.place.line, lia.place.column, reason.figure, energy_stable}];
     if (alike.links++ == 0) {
       alike.first = &lia;
-      alike.guarded = guarded;
+      alike.energy_stable = energy_stable;
     }
     if (reason.value >= alike.worst.value) {
       alike.worst = reason;
     }
-    return guarded ? Scheme::kGuarded : Scheme::kExplicit;
+    return energy_stable ? Scheme::kEnergyStable : Scheme::kExplicit;
   }
 
   std::string noteAbout(const AlikeLinks& alike) const {
@@ -124,11 +125,11 @@ class SchemeChooser {
     const std::string why = std::string(alike.worst.figure) + " = " + shortly(alike.worst.value) +
                             "; the explicit scheme is stable up to " + shortly(alike.worst.allowed);
     return noteAt(scene_, alike.first->place) + who +
-           (alike.guarded ? ": energy-stable, so that it cannot gain energy (" + why + ")"
-                          : ": explicit, because one end is a slower mass (" + why + ")");
+           (alike.energy_stable ? ": energy-stable, so that it cannot gain energy (" + why + ")"
+                                : ": explicit, because one end is a slower mass (" + why + ")");
   }
 
-  using Key = std::tuple<int, int, std::string, bool>;  // place, figure, guarded
+  using Key = std::tuple<int, int, std::string, bool>;  // place, figure, energy-stable
 
   scene::Scene& scene_;
   Network network_;
@@ -138,7 +139,8 @@ class SchemeChooser {
   std::map<Key, AlikeLinks> alike_;
 };
 
-/// Guards the stiffest of the links that are explicit only if that is stable, until it is.
+/// Makes the stiffest of the links energy-stable that are explicit only if that is stable, until it
+/// is.
 class StableChooser {
  public:
   StableChooser(scene::Scene& scene, const Rates& rates, std::vector<std::string>& notes)
@@ -150,7 +152,7 @@ class StableChooser {
         open_.push_back(l);
       }
     }
-    setOpen(Scheme::kGuarded);
+    setOpen(Scheme::kEnergyStable);
     const bool is_stable_without = !open_.empty() && !isRefuted();
     setOpen(Scheme::kExplicit);
     if (open_.empty() || !isRefuted()) {
@@ -159,7 +161,7 @@ class StableChooser {
     sortByLoad();
     while (!open_.empty() &&
            (loads_[open_.back()] >= NetworkBound::kLimit || (is_stable_without && isRefuted()))) {
-      guard(open_.back());
+      makeEnergyStable(open_.back());
       open_.pop_back();
     }
   }
@@ -195,12 +197,12 @@ class StableChooser {
     });
   }
 
-  void guard(int l) {
+  void makeEnergyStable(int l) {
     scene::Lia& lia = scene_.lias[at(l)];
     if (!(loads_[l] > 0.0)) {
       return;
     }
-    lia.scheme = Scheme::kGuarded;
+    lia.scheme = Scheme::kEnergyStable;
     notes_.push_back(
         noteAt(scene_, lia.place) + "link '" + lia.name.str() +
         "': energy-stable (h^2 K (1/Ma + 1/Mb) + 2 h Z (1/Ma + 1/Mb) = " + shortly(loads_[l]) +

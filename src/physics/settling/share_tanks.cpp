@@ -25,7 +25,7 @@ bool mayBeInTank(const Scene& scene, const Mat& mat) {
          section.sleep_energy == 0.0;
 }
 
-/// Modules that are in a tank, or whose links somebody else has chosen how to guard. [mats]
+/// Modules that are in a tank, or whose links somebody else has chosen a scheme for. [mats]
 std::vector<bool> takenModules(const Scene& scene) {
   std::vector<bool> taken(scene.mats.size(), false);
   for (const Lia& lia : scene.lias) {
@@ -125,7 +125,7 @@ void share(Scene& scene, const std::vector<std::size_t>& links, std::vector<std:
   const int tank = addTank(scene, first);
   for (const std::size_t l : links) {
     scene.lias[l].tank = tank;
-    scene.lias[l].scheme = scene::Scheme::kGuarded;
+    scene.lias[l].scheme = scene::Scheme::kEnergyStable;
     moveLinearPart(scene, l);
   }
   notes.push_back(noteAt(scene, first.place) + "link '" + first.name + "' and " +

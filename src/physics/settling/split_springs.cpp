@@ -37,7 +37,7 @@ void splitSprings(Scene& scene) {
   for (std::size_t l = 0; l < count; ++l) {
     Lia& lia = scene.lias[l];
     const double length = lengthOf(scene, lia);
-    if (lia.type != scene::LiaType::kSpringDamper || lia.scheme != scene::Scheme::kGuarded ||
+    if (lia.type != scene::LiaType::kSpringDamper || lia.scheme != scene::Scheme::kEnergyStable ||
         !isPartlyLinear(lia, length)) {
       continue;
     }

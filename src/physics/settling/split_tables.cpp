@@ -23,7 +23,7 @@ using scene::Scheme;
 /// share, the two parts store more energy apart, which could become motion, than together.
 constexpr double kShare = 1e-3;
 /// Largest part of the stiffness or damping around a table that may be taken.
-constexpr double kMost = 0.9;
+constexpr double kMax = 0.9;
 
 /// Force that is split off: -k (e - e0) - z v.
 struct Push {
@@ -125,13 +125,13 @@ bool findSpring(const RatedNetwork& networks, const Lia& lia, Push& push) {
       scene.mats[at(lia.a)].rest.x() - scene.mats[at(lia.b)].rest.x() - lia.rest_length;
   push.k = -curve.smallest_slope;
   push.e0 = e + (scene::valueAt(curve, e) + forceAtRest(lia)) / push.k;
-  return push.k <= kMost * held;
+  return push.k <= kMax * held;
 }
 
 /// Finds a damper that leaves the rest of the table purely dissipative.
 bool findDamper(const RatedNetwork& networks, const Lia& lia, Push& push) {
   push.z = scene::drive(lia.law->viscous_table);
-  return push.z == 0.0 || push.z <= kMost * heldBy(networks, lia, NetworkSpectrum::mobility);
+  return push.z == 0.0 || push.z <= kMax * heldBy(networks, lia, NetworkSpectrum::mobility);
 }
 
 std::optional<Push> findPush(const RatedNetwork& networks, const Lia& lia) {
@@ -153,7 +153,7 @@ Lia splitOff(Lia& lia, const Push& push) {
   lia.stiffness = {push.k};
   lia.damping = {push.z};
   lia.law.edit().width = {push.e0};
-  lia.scheme = Scheme::kGuarded;
+  lia.scheme = Scheme::kEnergyStable;
   return off;
 }
 

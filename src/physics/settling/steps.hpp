@@ -96,10 +96,9 @@ void insertFilters(scene::Scene& scene, const Rates& rates, std::vector<std::str
 /// potential without a floor, and what drives no damper of its own takes: only the springs and
 /// dampers around hold it. With k and z less than these do, it is the sum of a linear link,
 /// -k (e - e0) - z v, explicit and appended as `<name>.push`, and of a rest with a floor that
-/// brakes, which is guarded. Where nothing holds it so far it stays as it is, and with a viscous
-/// part explicit.
-/// \param scene  whose schemes may be open
-/// Realtime: no. Source: docs/physics/schemes.md, "Energy-stable links".
+/// brakes, which is energy-stable. Where nothing holds it so far it stays as it is, and with a
+/// viscous part explicit. \param scene  whose schemes may be open Realtime: no. Source:
+/// docs/physics/schemes.md, "Energy-stable links".
 void splitTables(scene::Scene& scene, const Rates& rates);
 
 /// Cubic links with Scheme::kAuto that harden one body share one tank of energy, which costs about
@@ -116,13 +115,12 @@ void chooseSchemes(scene::Scene& scene, const Rates& rates, std::vector<std::str
 
 /// A spring of stiffness K and rest length L that is l > L long where its ends rest is the sum of
 /// two: one of stiffness K (1 - L/l) without a rest length, which is linear, and one of K L/l with
-/// the rest length l, which then pushes nothing. Guarded ones become these two, the first of them
-/// explicit and appended as `<name>.tension`: what moves across the line is held by the tension
-/// alone, so it keeps its pitch at any stiffness, and the guard has nothing to hold at rest. The
-/// damper is that of the guarded one, but in a line, where it never turns, that of the other. One
-/// without a rest length is guarded for its damper only.
-/// \param scene  whose schemes are chosen
-/// Realtime: no. Source: docs/physics/schemes.md, "Energy-stable links".
+/// the rest length l, which then pushes nothing. Energy-stable ones become these two, the first of
+/// them explicit and appended as `<name>.tension`: what moves across the line is held by the
+/// tension alone, so it keeps its pitch at any stiffness, and the tank has nothing to hold at rest.
+/// The damper is that of the energy-stable one, but in a line, where it never turns, that of the
+/// other. One without a rest length is energy-stable for its damper only. \param scene  whose
+/// schemes are chosen Realtime: no. Source: docs/physics/schemes.md, "Energy-stable links".
 void splitSprings(scene::Scene& scene);
 
 /// Moves the masses and cells of sections that are to start in equilibrium to where springs,

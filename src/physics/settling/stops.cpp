@@ -12,8 +12,8 @@
 namespace ergotic::physics {
 namespace {
 
-constexpr double kMostShare = 3.0;  // of M/h^2
-constexpr double kSafe = 0.8;       // of what is left below 4, where steps are no longer stable
+constexpr double kMaxShare = 3.0;  // of M/h^2
+constexpr double kSafe = 0.8;      // of what is left below 4, where steps are no longer stable
 
 /// A module that a stop meets, as far as it takes part.
 struct Met {
@@ -119,7 +119,7 @@ class StopSettler {
     const double step = StepUnits(scene_, rates_, divisorOf(section, rates_)).step;
     // By rows no eigenvalue of the string is above twice what is attached to one of its masses.
     const double left = std::max(0.0, 4.0 - 2.0 * step * step * load);
-    const double stiffness = std::min(kMostShare, kSafe * left) / (inverse * step * step);
+    const double stiffness = std::min(kMaxShare, kSafe * left) / (inverse * step * step);
     lia.stiffness = (stiffness / scene_.valueOf(mass)) * mass;
     return stiffness > 0.0 ? 0.5 * pull / stiffness : 0.0;
   }

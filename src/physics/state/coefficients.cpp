@@ -8,7 +8,7 @@
 #include "at.hpp"
 #include "ergotic/scene/table.hpp"
 #include "physics/laws/oscillator.hpp"
-#include "physics/layout/guarded_groups.hpp"
+#include "physics/layout/energy_stable_groups.hpp"
 #include "scene/laws/bend_parts.hpp"
 #include "scene/laws/law.hpp"
 
@@ -41,7 +41,7 @@ struct Ends {
 Ends endsOf(const scene::Scene& scene) {
   Ends ends{std::vector<double>(scene.mats.size()), std::vector<double>(scene.mats.size())};
   for (const scene::Lia& lia : scene.lias) {
-    if (lia.scheme == scene::Scheme::kGuarded) {
+    if (lia.scheme == scene::Scheme::kEnergyStable) {
       continue;
     }
     const scene::Slopes slopes = scene::lawOf(lia.type).slopes(scene, lia);
@@ -68,7 +68,7 @@ CoefficientsOf<Real>::CoefficientsOf(const scene::Scene& scene,
     }
   }
   fillBlocks(scene, rates, layout);
-  fillGuarded(scene, rates, layout);
+  fillEnergyStable(scene, rates, layout);
   for (const scene::Output& output : scene.outputs) {
     pickup_gains.push_back(static_cast<Real>(scene.valueOf(output.gain)));
   }
@@ -157,7 +157,7 @@ void CoefficientsOf<Real>::setLink(
   const scene::Lia& lia = scene.lias[at(run.lias[at(l)])];
   const double rest = run.dimensions == 0 ? run.rests[at(l)].x() : 0.0;
   const scene::ExplicitForm& form = scene::lawOf(run.law).explicit_form;
-  std::array<double, scene::ExplicitForm::kMostNumbers> numbers{};
+  std::array<double, scene::ExplicitForm::kMaxNumbers> numbers{};
   form.convert({scene, lia, units, rest}, numbers.data());
   for (std::size_t i = 0; i < form.numbers; ++i) {
     const bool is_load = i < 2;  // of what a bend is made of: K, Z, where it rests
@@ -207,15 +207,15 @@ void CoefficientsOf<Real>::fillRun(const scene::Scene& scene,
 }
 
 template <class Real>
-void CoefficientsOf<Real>::fillGuarded(const scene::Scene& scene,
-                                       const Rates& rates,
-                                       const Layout& layout) {
-  for (const GuardedGroup& group : guardedGroupsOf(layout)) {
+void CoefficientsOf<Real>::fillEnergyStable(const scene::Scene& scene,
+                                            const Rates& rates,
+                                            const Layout& layout) {
+  for (const EnergyStableGroup& group : energyStableGroupsOf(layout)) {
     const StepUnits units(scene, rates, group.divisor);
-    guarded.emplace_back();
-    for (const GuardedRef& ref : group.links) {
+    energy_stable.emplace_back();
+    for (const EnergyStableRef& ref : group.links) {
       const scene::Lia& lia = scene.lias[at(layout.runs[ref.run].lias[ref.link])];
-      guarded.back().push_back(GuardedLaw<Real>::make(scene, lia, units));
+      energy_stable.back().push_back(EnergyStableLaw<Real>::make(scene, lia, units));
     }
   }
 }

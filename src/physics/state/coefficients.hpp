@@ -8,11 +8,11 @@
 #include "physics/layout/layout.hpp"
 #include "physics/state/aligned.hpp"
 #include "physics/step_units.hpp"
-#include "scene/laws/guarded_form.hpp"
+#include "scene/laws/energy_stable_form.hpp"
 
 namespace ergotic::physics {
 
-using scene::GuardedLaw;
+using scene::EnergyStableLaw;
 
 /// Per-slot coefficients of d <- d - (lose d + pull x) + inverse_mass f + drift; x <- x + d. What
 /// is lost is stored, not what is left: close to 1 a float would round it to a few digits. Masses
@@ -90,12 +90,13 @@ class CoefficientsOf final : public Coefficients {
               const Follower& follower) noexcept;
 
   MassCoefficients<Real> masses;
-  std::vector<RunCoefficients<Real>> runs;             ///< [Layout::runs]
-  std::vector<BlockCoefficients<Real>> blocks;         ///< [Layout::blocks]
-  std::vector<std::vector<GuardedLaw<Real>>> guarded;  ///< [guardedGroupsOf(layout)][links]
-  std::vector<Real> pickup_gains;                      ///< [Layout::pickups]
-  std::vector<Real> feed_gains;                        ///< [Layout::feeds]
-  std::vector<PlaceCoefficients> places;               ///< [Layout::places]
+  std::vector<RunCoefficients<Real>> runs;      ///< [Layout::runs]
+  std::vector<BlockCoefficients<Real>> blocks;  ///< [Layout::blocks]
+  std::vector<std::vector<EnergyStableLaw<Real>>>
+      energy_stable;                      ///< [energyStableGroupsOf(layout)][links]
+  std::vector<Real> pickup_gains;         ///< [Layout::pickups]
+  std::vector<Real> feed_gains;           ///< [Layout::feeds]
+  std::vector<PlaceCoefficients> places;  ///< [Layout::places]
 
  private:
   void fillMasses(const scene::Scene& scene, const Rates& rates, const Layout& layout);
@@ -107,7 +108,7 @@ class CoefficientsOf final : public Coefficients {
                  const StepUnits& units,
                  const Block& block,
                  const LinkRun& run);
-  void fillGuarded(const scene::Scene& scene, const Rates& rates, const Layout& layout);
+  void fillEnergyStable(const scene::Scene& scene, const Rates& rates, const Layout& layout);
   void fillPlaces(const scene::Scene& scene, const Rates& rates, const Layout& layout);
   void fillRun(const scene::Scene& scene, const Rates& rates, const Layout& layout, std::size_t r);
 };

@@ -12,9 +12,9 @@
 namespace ergotic::physics {
 
 /// A run remembers its forces if they cannot be worked out from positions: nonlinear laws,
-/// distances, guarded links and links between sections.
+/// distances, energy-stable links and links between sections.
 inline bool remembers(const LinkRun& run) {
-  return run.guarded || scene::lawOf(run.law).kind != scene::Law::Kind::kLinear ||
+  return run.energy_stable || scene::lawOf(run.law).kind != scene::Law::Kind::kLinear ||
          run.dimensions > 0 || run.section_a != run.section_b || run.slow_section >= 0;
 }
 

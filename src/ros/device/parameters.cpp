@@ -27,10 +27,10 @@ namespace {
 using Value = XmlRpc::XmlRpcValue;
 
 constexpr double kLongestStallS = 1.0;
-constexpr int kMostStalls = 1'000'000;
+constexpr int kMaxStalls = 1'000'000;
 constexpr double kLongestWatchdogS = 1.0;
-constexpr int kLeastPriority = 1;
-constexpr int kMostPriority = 99;
+constexpr int kMinPriority = 1;
+constexpr int kMaxPriority = 99;
 constexpr double kFrozenS = 0.1;  // the sensors of a TGR are noisier than their quantum
 
 const std::map<std::string, physics::Precision> kPrecisions = {
@@ -364,12 +364,12 @@ void visitParameters(Visitor& on, P& p) {
   on.flag("limiter", p.limiter);
   visitSafety(on, p.safety);
   on.number("max_stall", p.max_stall, 0.001, kLongestStallS);
-  on.integer("max_stalls", p.max_stalls, 1, kMostStalls);
+  on.integer("max_stalls", p.max_stalls, 1, kMaxStalls);
   on.number("watchdog", p.watchdog, 0.004, kLongestWatchdogS);
   on.choice("presence", p.presence, kPresence);
   on.flag("require_master", p.require_master);
   on.flag("allow_fault_injection", p.allow_fault_injection);
-  on.integer("priority", p.priority, kLeastPriority, kMostPriority);
+  on.integer("priority", p.priority, kMinPriority, kMaxPriority);
   on.integer("cpu", p.cpu, -1, 1023);
   on.choice("realtime", p.realtime, kRealtime);
   on.flag("allow_unproven", p.allow_unproven);
@@ -489,7 +489,7 @@ EarlyParameters readEarlyParameters(const Value& values, const std::string& node
   };
   attempt([&] { read.flag("allow_remote", early.allow_remote); });
   attempt([&] { read.choice("realtime", early.realtime, kRealtime); });
-  attempt([&] { read.integer("priority", early.priority, kLeastPriority, kMostPriority); });
+  attempt([&] { read.integer("priority", early.priority, kMinPriority, kMaxPriority); });
   attempt([&] { read.flag("gamepads", early.gamepads); });
   attempt([&] {
     std::string prefix;
@@ -502,7 +502,7 @@ EarlyParameters readEarlyParameters(const Value& values, const std::string& node
 
 Parameters withStallLimits(Parameters p, bool can_hurt) {
   p.max_stall = p.max_stall.value_or(can_hurt ? 0.05 : kLongestStallS);
-  p.max_stalls = p.max_stalls.value_or(can_hurt ? 3 : kMostStalls);
+  p.max_stalls = p.max_stalls.value_or(can_hurt ? 3 : kMaxStalls);
   p.watchdog = p.watchdog.value_or(can_hurt ? 0.02 : kLongestWatchdogS);
   return p;
 }

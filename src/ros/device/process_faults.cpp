@@ -18,9 +18,9 @@
 namespace ergotic::node {
 
 void requireStop(double seconds) {
-  constexpr double kLeastS = 0.001;
-  constexpr double kMostS = 10.0;
-  if (!(seconds >= kLeastS && seconds <= kMostS)) {
+  constexpr double kMinS = 0.001;
+  constexpr double kMaxS = 10.0;
+  if (!(seconds >= kMinS && seconds <= kMaxS)) {
     throw Exception("amount of stopped is " + std::to_string(seconds) + " s, allowed: 0.001...10");
   }
 }

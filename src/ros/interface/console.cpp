@@ -8,7 +8,7 @@
 namespace ergotic::node {
 namespace {
 
-constexpr std::size_t kMostLines = 1000;
+constexpr std::size_t kMaxLines = 1000;
 
 // rosconsole calls a plain function, which other nodelets do while the last station is unloaded.
 std::mutex taking;
@@ -79,7 +79,7 @@ void Console::log(const std::string& text,
 void Console::add(Line line) {
   {
     const std::lock_guard lock(mutex_);
-    if (lines_.size() >= kMostLines) {
+    if (lines_.size() >= kMaxLines) {
       return;
     }
     lines_.push_back(std::move(line));

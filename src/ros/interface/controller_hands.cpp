@@ -24,7 +24,7 @@ using CommandType = station::Command::Type;
 using station::InjectedModelFault;
 
 const char kNotAllowed[] = "faults can be injected only with the parameter allow_fault_injection";
-constexpr std::int64_t kMostTicks = 1'000'000;
+constexpr std::int64_t kMaxTicks = 1'000'000;
 constexpr double kPushOfLimit = 0.1;  // a push is at most that part of the force limit
 
 const std::map<std::string, InjectedModelFault> kModelFaults = {
@@ -266,7 +266,7 @@ void StationController::inject(const InjectFault::Request& request, const Promis
   }
   try {
     const std::int64_t ticks = request.ticks == 0 ? 1 : request.ticks;
-    if (ticks < 1 || ticks > kMostTicks) {
+    if (ticks < 1 || ticks > kMaxTicks) {
       throw Exception("ticks is " + std::to_string(ticks) + ", allowed: 0...1000000");
     }
     const auto model_fault = kModelFaults.find(request.kind);

@@ -342,11 +342,11 @@ void fillStatus(const physics::Instrument& instrument, Status& status) {
 void fillStatus(const station::MotionFrame& motion, const scene::Scene& scene, Status& status) {
   status.stored_energy = motion.energies.stored;
   status.energy_residual = station::relativeResidual(motion.energies);
-  if (std::none_of(motion.guards.begin(), motion.guards.end(), station::isCutTooOften)) {
+  if (std::none_of(motion.tanks.begin(), motion.tanks.end(), station::isCutTooOften)) {
     status.guard_warning.clear();
   } else if (status.guard_warning.empty()) {  // one is enough, and costs a look at the whole scene
-    const std::vector<std::string> warnings = station::guardWarnings(
-        scene, {status.audio_rate, static_cast<int>(status.ratio)}, motion.guards);
+    const std::vector<std::string> warnings = station::tankWarnings(
+        scene, {status.audio_rate, static_cast<int>(status.ratio)}, motion.tanks);
     status.guard_warning = warnings.empty() ? "" : warnings.front();
   }
 }

@@ -51,7 +51,7 @@ void fillStatus(std::uint64_t uncalibrated, Status& status);
 /// Fills name, rates, sizes and compile options of `status`.
 void fillStatus(const physics::Instrument& instrument, Status& status);
 
-/// Fills energies and the warning on guarded links of `status`.
+/// Fills energies and the warning on energy-stable links of `status`.
 void fillStatus(const station::MotionFrame& motion, const scene::Scene& scene, Status& status);
 
 ModelEnergy toModelEnergy(const station::MotionFrame& motion);

@@ -46,10 +46,7 @@ scene::Scene readModel(const std::string& model) {
   if (model.empty()) {
     throw Exception("no model is named, allowed: a path, or YAML of more than one line");
   }
-  scene::Scene scene =
-      isText(model) ? scene::readYaml(model, "inline.yaml", {}, kTextAlone) : readFile(model);
-  scene::validate(scene);
-  return scene;
+  return isText(model) ? scene::readYaml(model, "inline.yaml", {}, kTextAlone) : readFile(model);
 }
 
 std::string handsBeside(const std::string& model) {

@@ -29,7 +29,7 @@ void check(const HandTargets& wanted) {
   if (wanted.grip > HandTargets::KEY) {
     refuse("grip", static_cast<int>(wanted.grip), "0...4");
   }
-  if (!(wanted.glide >= 0.0 && wanted.glide <= tgr::HandMove::kMostGlideS)) {
+  if (!(wanted.glide >= 0.0 && wanted.glide <= tgr::HandMove::kMaxGlideS)) {
     refuse("glide", wanted.glide, "0...60 s");
   }
   if (!(wanted.timeout >= 0.0)) {

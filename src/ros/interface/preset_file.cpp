@@ -19,7 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kMostPresetBytes = std::size_t{4} << 20U;
+constexpr std::size_t kMaxPresetBytes = std::size_t{4} << 20U;
 constexpr scene::Limits kAnyValue{};
 
 /// A scene that came as a text has the name of a file, but none.
@@ -45,7 +45,7 @@ std::map<std::string, PresetValues> PresetFile::read() const {
   if (!fs::exists(path_, error) && !error) {
     return {};
   }
-  const tgr::Settings file(tgr::parseSettings(files::readFile(path_, kMostPresetBytes), path_),
+  const tgr::Settings file(tgr::parseSettings(files::readFile(path_, kMaxPresetBytes), path_),
                            path_, "the presets");
   std::map<std::string, PresetValues> presets;
   for (const auto& entry : file.node()) {
@@ -77,8 +77,8 @@ PresetValues PresetFile::at(const std::string& name) const {
 void PresetFile::keep(const std::string& name, const PresetValues& values) const {
   auto presets = read();
   presets[name] = values;
-  if (presets.size() > kMostPresets) {
-    throw Exception(path_ + " has " + std::to_string(kMostPresets) +
+  if (presets.size() > kMaxPresets) {
+    throw Exception(path_ + " has " + std::to_string(kMaxPresets) +
                     " presets already, allowed: no more. Forget one of them first");
   }
   write(presets);

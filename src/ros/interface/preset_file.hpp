@@ -24,7 +24,7 @@ std::string presetsOf(const scene::Scene& scene);
 /// Thread: one at a time
 class PresetFile {
  public:
-  static constexpr std::size_t kMostPresets = 100;
+  static constexpr std::size_t kMaxPresets = 100;
 
   PresetFile(std::string folder, const std::string& scene)
       : folder_(std::move(folder)), path_(folder_ + "/" + scene + ".yaml") {}

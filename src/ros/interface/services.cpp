@@ -21,7 +21,7 @@ constexpr std::uint32_t kParameterQueue = 10'000;  // taken at once: the newest 
 constexpr std::uint32_t kHandsQueue = 1000;
 constexpr std::int64_t kHeldNs = 1'000'000'000;
 constexpr std::int64_t kTapNs = 200'000'000;  // from a tap to its release
-constexpr std::uint32_t kMostIndices = 64;    // slices, or coordinates
+constexpr std::uint32_t kMaxIndices = 64;     // slices, or coordinates
 const ::ros::WallDuration kMidiPeriod(0.001);
 constexpr double kRefusalPeriodS = 1.0;
 constexpr std::int64_t kComplaintPeriodNs = 1'000'000'000;
@@ -207,8 +207,8 @@ void Services::onHoldTarget(const ::ros::MessageEvent<const HoldTarget>& target)
 }
 
 void Services::onNote(const Note& note) {
-  constexpr int kMost = 127;
-  if (note.note > kMost || note.velocity > Note::HELD) {
+  constexpr int kMax = 127;
+  if (note.note > kMax || note.velocity > Note::HELD) {
     return complain("notes",
                     {false, "note " + std::to_string(note.note) + " at velocity " +
                                 std::to_string(note.velocity) + ", allowed: 0...127 at 0...128"});
@@ -222,8 +222,8 @@ void Services::onNote(const Note& note) {
 }
 
 void Services::onTap(const Tap& tap) {
-  constexpr int kMost = 127;
-  if (tap.velocity < 1 || tap.velocity > kMost || tap.index >= kMostIndices) {
+  constexpr int kMax = 127;
+  if (tap.velocity < 1 || tap.velocity > kMax || tap.index >= kMaxIndices) {
     return complain("taps",
                     {false, "index " + std::to_string(tap.index) + " at velocity " +
                                 std::to_string(tap.velocity) + ", allowed: below 64 at 1...127"});

@@ -65,7 +65,7 @@ std::vector<TakeFile> TakeFolder::list() const {
   std::sort(takes.begin(), takes.end(), [](const TakeFile& a, const TakeFile& b) {
     return a.written_ns != b.written_ns ? a.written_ns > b.written_ns : a.name > b.name;
   });
-  takes.resize(std::min(takes.size(), kMostTakes));
+  takes.resize(std::min(takes.size(), kMaxTakes));
   return takes;
 }
 

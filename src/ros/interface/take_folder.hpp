@@ -20,12 +20,12 @@ struct TakeFile {
 /// end in. All names are checked. Thread: one at a time
 class TakeFolder {
  public:
-  static constexpr std::size_t kMostTakes = 100;
+  static constexpr std::size_t kMaxTakes = 100;
 
   explicit TakeFolder(std::string path) : path_(std::move(path)) {}
 
   const std::string& path() const { return path_; }
-  /// The newest first, at most kMostTakes.
+  /// The newest first, at most kMaxTakes.
   std::vector<TakeFile> list() const;
   /// \throws Exception if there is none of this name
   TakeFile find(const std::string& name) const;

@@ -12,7 +12,7 @@
 namespace ergotic::node {
 namespace {
 
-constexpr std::size_t kMostWaiting = 10'000;  // blocks of gestures: some minutes
+constexpr std::size_t kMaxWaiting = 10'000;  // blocks of gestures: some minutes
 
 /// Time stamp of a message. A simulated clock may be at 0, which a bag cannot store.
 ::ros::Time timeOfMessage() {
@@ -48,7 +48,7 @@ void TakeWriter::enqueue(const std::string& topic, const Message& message) {
   const ::ros::Time time = timeOfMessage();
   {
     const std::lock_guard lock(mutex_);
-    if (work_.size() >= kMostWaiting) {
+    if (work_.size() >= kMaxWaiting) {
       trouble_ = "the disk is too slow";
       return;
     }

@@ -9,7 +9,7 @@ void ValueHistory::note(const std::vector<double>& values, std::int64_t now_ns) 
   if (!changed_ns_ || now_ns - *changed_ns_ > kPauseNs) {
     steps_.push_back(values);
   }
-  if (steps_.size() > kMostSteps) {
+  if (steps_.size() > kMaxSteps) {
     steps_.pop_front();
   }
   changed_ns_ = now_ns;

@@ -13,7 +13,7 @@ namespace ergotic::node {
 /// that follow one another within a second are one.
 class ValueHistory {
  public:
-  static constexpr std::size_t kMostSteps = 50;
+  static constexpr std::size_t kMaxSteps = 50;
   static constexpr std::int64_t kPauseNs = 1'000'000'000;
 
   /// Records values before a change. \param values  [parameters] as they are

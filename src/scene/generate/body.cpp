@@ -12,17 +12,17 @@ namespace ergotic::scene {
 namespace {
 
 constexpr int kPartialsToTell = 8;
-constexpr int kMostMasses = 20'000;  // of all bodies of a scene: their modes are looked for
+constexpr int kMaxMasses = 20'000;  // of all bodies of a scene: their modes are looked for
 
 void requireFew(const SceneBuilder& builder, const Tuning& body) {
   int masses = body.mats;
   for (const Tuning& other : builder.scene().tunings) {
     masses += other.mats;
   }
-  if (masses > kMostMasses) {
+  if (masses > kMaxMasses) {
     builder.fail(body.place, "the bodies with a pitch would have " + std::to_string(masses) +
                                  " modules together, allowed: at most " +
-                                 std::to_string(kMostMasses));
+                                 std::to_string(kMaxMasses));
   }
 }
 

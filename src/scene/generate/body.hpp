@@ -18,7 +18,7 @@ struct BodyWish {
   std::vector<std::pair<int, double>> t60;
 };
 
-constexpr int kMostPartials = 40;  ///< most partials that a network can be asked for
+constexpr int kMaxPartials = 40;  ///< most partials that a network can be asked for
 
 /// Type of a mass that may lose: a matched cell if a decay is wanted.
 inline MatType massTypeOf(const BodyWish& wish) {

@@ -19,7 +19,7 @@
 namespace ergotic::scene {
 namespace {
 
-constexpr int kMostDense = 120;
+constexpr int kMaxDense = 120;
 
 /// The moving masses of a body.
 class Masses {
@@ -131,7 +131,7 @@ BodyModes lowestModes(const Scene& scene, const Tuning& body, int count) {
   const Eigen::SparseMatrix<double> matrix = masses.stiffness(scene, body);
   const int wanted = std::min(body.rigid + count, masses.count());
   const Vectors vectors =
-      masses.count() <= kMostDense ? denseVectors(matrix, wanted) : sparseVectors(matrix, wanted);
+      masses.count() <= kMaxDense ? denseVectors(matrix, wanted) : sparseVectors(matrix, wanted);
   BodyModes result;
   const Eigen::Index found = std::max<Eigen::Index>(0, vectors.lowest.cols() - body.rigid);
   result.shapes.resize(body.mats, found);

@@ -28,7 +28,7 @@ HardLinks::HardLinks(SceneBuilder& builder,
 void HardLinks::add(int a, int b, double nonlinearity) {
   Lia lia = generatedLink(stem_, count_++, a, b, place_);
   lia.type = LiaType::kCubic;
-  lia.scheme = Scheme::kGuarded;
+  lia.scheme = Scheme::kEnergyStable;
   lia.law.edit().nonlinearity.factor = nonlinearity;
   lia.tank = tank_;
   builder_.add(std::move(lia));

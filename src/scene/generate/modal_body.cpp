@@ -180,7 +180,7 @@ class Modes {
       spec_.places.push_back(each.name);
       spec_.seen_at.push_back(body_.rest(each.along, each.across));
     }
-    const int wanted = form_.partials > 0 ? form_.partials : kMostPartials;
+    const int wanted = form_.partials > 0 ? form_.partials : kMaxPartials;
     for (int j = 0; j < std::min(wanted, static_cast<int>(hz_.size())); ++j) {
       if (!addPartial(j)) {
         break;
@@ -314,7 +314,7 @@ void addModalBody(SceneBuilder& builder, const ModalSpec& spec) {
 }
 
 int partialsOf(const BodyWish& wish, const BodyForm& form) {
-  return std::max(form.partials > 0 ? form.partials : kMostPartials, highestWanted(wish));
+  return std::max(form.partials > 0 ? form.partials : kMaxPartials, highestWanted(wish));
 }
 
 void addVibratingBody(SceneBuilder& builder,

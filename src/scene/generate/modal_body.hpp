@@ -49,7 +49,7 @@ void addModalBody(SceneBuilder& builder, const ModalSpec& spec);
 /// How a body is played.
 struct BodyForm {
   bool is_modal = false;
-  int partials = 0;  ///< partials of modal ones; 0: all below 18 kHz, kMostPartials at most
+  int partials = 0;  ///< partials of modal ones; 0: all below 18 kHz, kMaxPartials at most
   std::vector<BodyPlace> places;
 };
 

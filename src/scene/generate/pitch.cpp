@@ -73,9 +73,9 @@ double stringZeta(const Scene& scene, const StringInfo& string, double rate_hz) 
 }
 
 bool holdsPitch(const Scene& scene, const StringInfo& string, double rate_hz) {
-  const double guarded = string.rest_length_ratio * stringKappa(scene, string, rate_hz);
+  const double energy_stable = string.rest_length_ratio * stringKappa(scene, string, rate_hz);
   return scene.lias[at(string.first_lia)].scheme == Scheme::kExplicit ||
-         !movesAlong(scene, string) || guarded <= kStiffestInTune;
+         !movesAlong(scene, string) || energy_stable <= kStiffestInTune;
 }
 
 double stringPitchHz(const Scene& scene, const StringInfo& string, double rate_hz) {

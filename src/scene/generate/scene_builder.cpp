@@ -12,9 +12,9 @@ namespace ergotic::scene {
 namespace {
 
 #ifdef ERGOTIC_FUZZED
-constexpr std::size_t kMostMats = 5000;  // whatever a fuzzer asks for is made in no time
+constexpr std::size_t kMatLimit = 5000;  // whatever a fuzzer asks for is made in no time
 #else
-constexpr std::size_t kMostMats = kMaxMats;
+constexpr std::size_t kMatLimit = kMaxMats;
 #endif
 
 /// Room for many more; grows by half at least, as one scene may have thousands of generators.
@@ -84,7 +84,7 @@ int SceneBuilder::add(Section section) {
 }
 
 int SceneBuilder::add(Mat mat) {
-  if (scene_.mats.size() >= kMostMats) {
+  if (scene_.mats.size() >= kMatLimit) {
     reserve(1, 0, mat.place);
   }
   return append(scene_.mats, mats_, "module", std::move(mat));
@@ -110,9 +110,9 @@ int SceneBuilder::add(Grid grid) {
 
 void SceneBuilder::expectRoom(std::size_t mats, Place place) const {
   const std::size_t total = scene_.mats.size() + mats;
-  if (total > kMostMats) {
+  if (total > kMatLimit) {
     fail(place, "the scene would have " + std::to_string(total) + " modules, allowed: at most " +
-                    std::to_string(kMostMats));
+                    std::to_string(kMatLimit));
   }
 }
 
@@ -157,17 +157,17 @@ int SceneBuilder::find(const NameTable& table,
 }
 
 void SceneBuilder::expectToLookAt(std::size_t mats, Place place) {
-  constexpr std::size_t kMost = 50'000'000;  // some tenths of a second
-  if ((looked_at_ += mats) > kMost) {
+  constexpr std::size_t kMax = 50'000'000;  // some tenths of a second
+  if ((looked_at_ += mats) > kMax) {
     fail(place,
-         "the selections of the scene look at more than " + std::to_string(kMost) + " modules");
+         "the selections of the scene look at more than " + std::to_string(kMax) + " modules");
   }
 }
 
 void SceneBuilder::addSelected(const std::string& text, std::size_t count, Place place) {
-  constexpr std::size_t kMost = 2'000'000;
-  if ((selected_ += count) > kMost) {
-    fail(place, "the selections of the scene mean more than " + std::to_string(kMost) + " modules");
+  constexpr std::size_t kMax = 2'000'000;
+  if ((selected_ += count) > kMax) {
+    fail(place, "the selections of the scene mean more than " + std::to_string(kMax) + " modules");
   }
   if (selections_.insert(text).second) {
     scene_.selections.push_back({text, count, place});
@@ -184,9 +184,9 @@ void SceneBuilder::fail(Place place, const std::string& what) const {
 }
 
 void SceneBuilder::warn(Place place, const std::string& what) {
-  constexpr std::size_t kMost = 100;  // a status carries them all
-  if (scene_.warnings.size() >= kMost) {
-    scene_.warnings.resize(kMost, "");
+  constexpr std::size_t kMax = 100;  // a status carries them all
+  if (scene_.warnings.size() >= kMax) {
+    scene_.warnings.resize(kMax, "");
     scene_.warnings.back() = scene_.file + ": warning: there are more of them";
     return;
   }

@@ -25,7 +25,7 @@ void addStretch(SceneBuilder& builder, Tank tank) {
     Lia lia;
     lia.name = stem.numbered(count++);
     lia.type = LiaType::kCubic;
-    lia.scheme = Scheme::kGuarded;
+    lia.scheme = Scheme::kEnergyStable;
     lia.a = spring.a;
     lia.b = spring.b;
     lia.rest_length = spring.rest_length;

@@ -7,11 +7,11 @@
 namespace ergotic::scene {
 namespace {
 
-constexpr int kMostTwelfths = 12 * 100;  // far beyond what anything is measured in
+constexpr int kMaxTwelfths = 12 * 100;  // far beyond what anything is measured in
 
 bool isKnown(const Kind& kind) {
   for (const int power : kind.twelfths) {
-    if (std::abs(power) > kMostTwelfths) {
+    if (std::abs(power) > kMaxTwelfths) {
       return false;
     }
   }
@@ -40,8 +40,7 @@ std::optional<Kind> powerKind(const Kind& kind, double power) {
   for (std::size_t i = 0; i < result.twelfths.size(); ++i) {
     const double twelfths = kind.twelfths[i] * power;
     // A third is no binary number.
-    if (!(std::abs(twelfths) <= kMostTwelfths) ||
-        std::abs(twelfths - std::round(twelfths)) > 1e-9) {
+    if (!(std::abs(twelfths) <= kMaxTwelfths) || std::abs(twelfths - std::round(twelfths)) > 1e-9) {
       return std::nullopt;
     }
     result.twelfths[i] = static_cast<int>(std::lround(twelfths));

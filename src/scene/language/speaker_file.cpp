@@ -11,8 +11,8 @@
 namespace ergotic::scene {
 namespace {
 
-constexpr std::size_t kMostSpeakers = 64;
-constexpr std::size_t kMostBytes = 1U << 16U;
+constexpr std::size_t kMaxSpeakers = 64;
+constexpr std::size_t kMaxBytes = 1U << 16U;
 constexpr const char* kColumns = "azimuth,elevation,channel";
 
 Node readSpeaker(const CsvReader& csv, Place place) {
@@ -35,7 +35,7 @@ Node speakersIn(const SceneBuilder& builder, const Node& spec, Place place) {
   const std::string name = map.word("file");
   const Place where = map.placeAt("file");
   const std::string path = pathOfNear(builder, name, "", where);
-  const std::string text = readNear(builder, path, kMostBytes, "", where);
+  const std::string text = readNear(builder, path, kMaxBytes, "", where);
   Node list(Node::Kind::kList, place);
   std::istringstream in(text);
   CsvReader csv(in, path, kColumns);
@@ -43,8 +43,8 @@ Node speakersIn(const SceneBuilder& builder, const Node& spec, Place place) {
     if (csv.isHeader()) {
       continue;
     }
-    if (list.size() == kMostSpeakers) {
-      csv.fail(0, "too many speakers, allowed: " + std::to_string(kMostSpeakers));
+    if (list.size() == kMaxSpeakers) {
+      csv.fail(0, "too many speakers, allowed: " + std::to_string(kMaxSpeakers));
     }
     list.add(readSpeaker(csv, place));
   }

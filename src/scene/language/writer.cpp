@@ -12,11 +12,11 @@
 namespace ergotic::scene {
 namespace {
 
-constexpr std::size_t kMostWritten = 500'000;  // scalars, lists and maps
-constexpr std::size_t kMostText = 8U << 20U;   // bytes in them and in what is evaluated
-constexpr std::size_t kLongestWord = 4096;     // bytes, of what is put together
-constexpr double kMostTurns = 1e5;             // of a loop
-constexpr double kLargestTurn = 1e15;          // whole numbers beyond have no next one
+constexpr std::size_t kMaxWritten = 500'000;  // scalars, lists and maps
+constexpr std::size_t kMaxText = 8U << 20U;   // bytes in them and in what is evaluated
+constexpr std::size_t kLongestWord = 4096;    // bytes, of what is put together
+constexpr double kMaxTurns = 1e5;             // of a loop
+constexpr double kLargestTurn = 1e15;         // whole numbers beyond have no next one
 constexpr const char* kReferences[] = {"between", "at",   "mat",   "of",  "along",
                                        "normal",  "from", "guide", "ends"};
 
@@ -44,18 +44,18 @@ void Writer::fail(const Node& node, const Frame& frame, const std::string& what)
 }
 
 void Writer::count(const Node& node, const Frame& frame, std::size_t nodes) {
-  if ((written_ += nodes) > kMostWritten) {
+  if ((written_ += nodes) > kMaxWritten) {
     fail(node, frame,
          "with all its loops and definitions expanded the scene has more than " +
-             std::to_string(kMostWritten) + " scalars, lists and maps");
+             std::to_string(kMaxWritten) + " scalars, lists and maps");
   }
 }
 
 void Writer::countText(std::size_t bytes, const Node& node, const Frame& frame) {
-  if ((text_ += bytes) > kMostText) {
+  if ((text_ += bytes) > kMaxText) {
     fail(node, frame,
          "with all its loops and definitions expanded the scene has more than " +
-             std::to_string(kMostText) + " bytes of words and expressions");
+             std::to_string(kMaxText) + " bytes of words and expressions");
   }
 }
 
@@ -214,8 +214,8 @@ std::vector<Constant> Writer::itemsOf(const Node& values, const Frame& frame, co
     }
     ends[i] = number->value;
   }
-  if (ends[1] - ends[0] > kMostTurns) {
-    fail(values, frame, "a loop of more than " + std::to_string(static_cast<int>(kMostTurns)));
+  if (ends[1] - ends[0] > kMaxTurns) {
+    fail(values, frame, "a loop of more than " + std::to_string(static_cast<int>(kMaxTurns)));
   }
   for (double i = ends[0]; i <= ends[1]; ++i) {
     items.emplace_back(Amount{i});

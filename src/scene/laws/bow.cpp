@@ -32,7 +32,8 @@ struct Bow {
 
 template <class Real>
 struct BowCurve {
-  ERGOTIC_REALTIME static GuardedForce<Real> slip(const GuardedLaw<Real>& n, Real v) noexcept {
+  ERGOTIC_REALTIME static EnergyStableForce<Real> slip(const EnergyStableLaw<Real>& n,
+                                                       Real v) noexcept {
     const Real speed = std::abs(v);
     const Real slope = n.damping / Real(3);
     const Real stick = n.width / Real(3);

@@ -45,7 +45,8 @@ void completeClippedLaw(Lia& lia, ClippedLaw law) {
 }
 
 template <class Real>
-ERGOTIC_REALTIME GuardedForce<Real> ClippedCurve<Real>::push(const Numbers& n, Real p) noexcept {
+ERGOTIC_REALTIME EnergyStableForce<Real> ClippedCurve<Real>::push(const Numbers& n,
+                                                                  Real p) noexcept {
   if (std::abs(p) > n.tip) {
     return {n.stiffness_limit * p, n.stiffness_limit};
   }

@@ -48,8 +48,8 @@ struct ClippedCubic {
 
 template <class Real>
 struct ClippedCurve : PlainDamping<Real> {
-  using Numbers = GuardedLaw<Real>;
-  static GuardedForce<Real> push(const Numbers& n, Real p) noexcept;
+  using Numbers = EnergyStableLaw<Real>;
+  static EnergyStableForce<Real> push(const Numbers& n, Real p) noexcept;
   static Real potential(const Numbers& n, Real p) noexcept;
   static Real damping(const Numbers& n, Real p, Real v) noexcept;
 };

@@ -32,9 +32,9 @@ struct Conditional {
 /// let go, so what it held beyond is lost.
 template <class Real>
 struct ConditionalCurve : PlainDamping<Real> {
-  using Numbers = GuardedLaw<Real>;
+  using Numbers = EnergyStableLaw<Real>;
 
-  ERGOTIC_REALTIME static GuardedForce<Real> push(const Numbers& n, Real p) noexcept {
+  ERGOTIC_REALTIME static EnergyStableForce<Real> push(const Numbers& n, Real p) noexcept {
     return {n.stiffness * p, n.stiffness};
   }
   ERGOTIC_REALTIME static Real potential(const Numbers& n, Real p) noexcept {

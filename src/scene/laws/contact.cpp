@@ -22,9 +22,9 @@ struct Contact {
 
 template <class Real>
 struct ContactCurve : PlainDamping<Real> {
-  using Numbers = GuardedLaw<Real>;
+  using Numbers = EnergyStableLaw<Real>;
 
-  ERGOTIC_REALTIME static GuardedForce<Real> push(const Numbers& n, Real p) noexcept {
+  ERGOTIC_REALTIME static EnergyStableForce<Real> push(const Numbers& n, Real p) noexcept {
     return {n.stiffness * p, n.stiffness};
   }
   ERGOTIC_REALTIME static Real potential(const Numbers& n, Real p) noexcept {

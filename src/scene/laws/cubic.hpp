@@ -5,12 +5,12 @@
 
 namespace ergotic::scene {
 
-/// K p + Q p^3, guarded; linear springs are those with Q = 0.
+/// K p + Q p^3, energy-stable; linear springs are those with Q = 0.
 template <class Real>
 struct CubicCurve : PlainDamping<Real> {
-  using Numbers = GuardedLaw<Real>;
+  using Numbers = EnergyStableLaw<Real>;
 
-  ERGOTIC_REALTIME static GuardedForce<Real> push(const Numbers& n, Real p) noexcept {
+  ERGOTIC_REALTIME static EnergyStableForce<Real> push(const Numbers& n, Real p) noexcept {
     return {p * (n.stiffness + n.nonlinearity * p * p),
             n.stiffness + Real(3) * n.nonlinearity * p * p};
   }

@@ -27,7 +27,7 @@ struct CubicContact {
 
 template <class Real>
 struct CubicContactCurve : ClippedCurve<Real> {
-  using Numbers = GuardedLaw<Real>;
+  using Numbers = EnergyStableLaw<Real>;
 
   ERGOTIC_REALTIME static Real potentialIntegral(const Numbers& n, Real p) noexcept {
     const Real inside = std::min(p, n.tip);

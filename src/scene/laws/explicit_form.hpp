@@ -124,9 +124,9 @@ using RunForces = void (*)(const RunNumbers<Real>& c,
 
 /// How a law is worked out in the explicit scheme.
 struct ExplicitForm {
-  static constexpr std::size_t kMostNumbers = 12;
+  static constexpr std::size_t kMaxNumbers = 12;
 
-  std::size_t numbers;  ///< of each link, at most kMostNumbers
+  std::size_t numbers;  ///< of each link, at most kMaxNumbers
   std::size_t offset;   ///< the number that u + it is e; not of friction
   std::size_t states;   ///< numbers that it remembers from step to step, 0 at the start
   void (*convert)(const LinkInSteps& link, double* to);  ///< its numbers. Realtime: yes
@@ -166,7 +166,7 @@ void convertNumbers(const LinkInSteps& link, double* to) {
 /// Explicit form of a law that defines kNumbers, kOffset and force().
 template <class Law>
 constexpr ExplicitForm explicitForm(std::size_t states = 0) {
-  static_assert(std::size(Law::kNumbers) <= ExplicitForm::kMostNumbers);
+  static_assert(std::size(Law::kNumbers) <= ExplicitForm::kMaxNumbers);
   return {std::size(Law::kNumbers), Law::kOffset,          states,
           convertNumbers<Law>,      runForces<Law, float>, runForces<Law, double>};
 }

@@ -5,7 +5,7 @@
 #include "scene/laws/law.hpp"
 
 /// Laws of a family share all entries but those that are asked for here. Explicit forms and
-/// guarded curves are those of explicit_form.hpp and guarded_form.hpp.
+/// energy-stable curves are those of explicit_form.hpp and energy_stable_form.hpp.
 namespace ergotic::scene {
 
 inline bool never(const Lia& /*lia*/) {

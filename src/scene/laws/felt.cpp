@@ -10,7 +10,7 @@ namespace {
 
 template <class Real>
 struct FeltCurve : PowerCurve<Real> {
-  using Numbers = GuardedLaw<Real>;
+  using Numbers = EnergyStableLaw<Real>;
 
   ERGOTIC_REALTIME static Real damping(const Numbers& n, Real p, Real) noexcept {
     return n.damping * PowerCurve<Real>::push(n, p).force;

@@ -12,12 +12,13 @@ namespace {
 /// mu over the slip.
 template <class Real>
 struct FrictionCurve {
-  ERGOTIC_REALTIME static GuardedForce<Real> slip(const GuardedLaw<Real>& n, Real v) noexcept {
+  ERGOTIC_REALTIME static EnergyStableForce<Real> slip(const EnergyStableLaw<Real>& n,
+                                                       Real v) noexcept {
     if (!n.viscous.empty()) {
-      const GuardedForce<Real> at = n.viscous.at(v * n.per_step);
+      const EnergyStableForce<Real> at = n.viscous.at(v * n.per_step);
       return {at.force, at.slope * n.per_step};
     }
-    GuardedForce<Real> mu{n.steady, Real(0)};
+    EnergyStableForce<Real> mu{n.steady, Real(0)};
     for (int i = 0; i < 2; ++i) {
       const Real part = n.share[i] * std::exp(-v * n.per_width[i]);
       mu.force += part;
@@ -28,14 +29,14 @@ struct FrictionCurve {
 };
 
 template <class Real>
-constexpr GuardedForm<Real> form() {
-  GuardedForm<Real> form = frictionForm<FrictionCurve<Real>, Real>();
-  form.sort = GuardedForm<Real>::Sort::kDry;
+constexpr EnergyStableForm<Real> form() {
+  EnergyStableForm<Real> form = frictionForm<FrictionCurve<Real>, Real>();
+  form.sort = EnergyStableForm<Real>::Sort::kDry;
   return form;
 }
 
-const GuardedForms& forms(const Lia& /*lia*/) {
-  static constexpr GuardedForms kForms = {form<float>(), form<double>()};
+const EnergyStableForms& forms(const Lia& /*lia*/) {
+  static constexpr EnergyStableForms kForms = {form<float>(), form<double>()};
   return kForms;
 }
 

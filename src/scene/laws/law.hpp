@@ -4,8 +4,8 @@
 #include <cstddef>
 #include <variant>
 
+#include "scene/laws/energy_stable_form.hpp"
 #include "scene/laws/explicit_form.hpp"
-#include "scene/laws/guarded_form.hpp"
 #include "scene/laws/slopes.hpp"
 #include "scene/limits.hpp"
 
@@ -94,8 +94,8 @@ struct Law : LawText {
 
   Kind kind;
   ExplicitForm explicit_form;
-  const GuardedForms& (*guarded)(const Lia& lia);
-  const char* (*unguarded)(
+  const EnergyStableForms& (*energy_stable)(const Lia& lia);
+  const char* (*explicitOnly)(
       const Lia& lia);  ///< reason why `scheme: energy_stable` is refused, or nullptr
 
   // Stability
@@ -118,7 +118,8 @@ struct Law : LawText {
 /// The row of a law.
 const Law& lawOf(LiaType type);
 
-/// True if it may hold two bodies together as if they were one, which only a guard can do.
+/// True if it may hold two bodies together as if they were one, which only the energy-stable scheme
+/// can do.
 inline bool sticks(LiaType type) {
   return lawOf(type).explicit_form.single_forces == nullptr;
 }

@@ -41,9 +41,9 @@ struct OneWayPluck {
 /// It stores nothing where it begins to pull nor where it has let go: what it held is lost.
 template <class Real>
 struct OneWayPluckCurve : PlainDamping<Real> {
-  using Numbers = GuardedLaw<Real>;
+  using Numbers = EnergyStableLaw<Real>;
 
-  ERGOTIC_REALTIME static GuardedForce<Real> push(const Numbers& n, Real p) noexcept {
+  ERGOTIC_REALTIME static EnergyStableForce<Real> push(const Numbers& n, Real p) noexcept {
     return {n.stiffness * p, n.stiffness};
   }
   ERGOTIC_REALTIME static Real potential(const Numbers&, Real) noexcept { return Real(0); }

@@ -36,17 +36,17 @@ struct Pluck {
 /// A hill of the height 0.045 K width^2: up to its top it holds, beyond it slips.
 template <class Real>
 struct PluckCurve {
-  using Numbers = GuardedLaw<Real>;
+  using Numbers = EnergyStableLaw<Real>;
 
-  ERGOTIC_REALTIME static GuardedForce<Real> push(const Numbers& n, Real p) noexcept {
+  ERGOTIC_REALTIME static EnergyStableForce<Real> push(const Numbers& n, Real p) noexcept {
     const Real distance = std::abs(p);
     const Real fall = Real(kPluckTip) * n.stiffness;
     if (distance >= n.width) {
       return {Real(0), Real(0)};
     }
     return distance < Real(kPluckTip) * n.width
-               ? GuardedForce<Real>{(fall - n.stiffness) * p, fall - n.stiffness}
-               : GuardedForce<Real>{fall * (p - std::copysign(n.width, p)), fall};
+               ? EnergyStableForce<Real>{(fall - n.stiffness) * p, fall - n.stiffness}
+               : EnergyStableForce<Real>{fall * (p - std::copysign(n.width, p)), fall};
   }
   ERGOTIC_REALTIME static Real potential(const Numbers& n, Real p) noexcept {
     const Real tip = Real(kPluckTip) * n.width;

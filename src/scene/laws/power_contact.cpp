@@ -48,7 +48,7 @@ constexpr Growth kGrowth = {figure, slopesTo, powerElongation};
 }  // namespace
 
 template <class Real>
-ERGOTIC_REALTIME GuardedForce<Real> PowerCurve<Real>::push(const Numbers& n, Real p) noexcept {
+ERGOTIC_REALTIME EnergyStableForce<Real> PowerCurve<Real>::push(const Numbers& n, Real p) noexcept {
   const Real force = n.stiffness * std::pow(p, n.exponent);
   return {force, n.exponent * force / p};
 }

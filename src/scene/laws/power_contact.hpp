@@ -5,11 +5,11 @@
 
 namespace ergotic::scene {
 
-/// K p^a with its integrals, guarded.
+/// K p^a with its integrals, energy-stable.
 template <class Real>
 struct PowerCurve : PlainDamping<Real> {
-  using Numbers = GuardedLaw<Real>;
-  static GuardedForce<Real> push(const Numbers& n, Real p) noexcept;
+  using Numbers = EnergyStableLaw<Real>;
+  static EnergyStableForce<Real> push(const Numbers& n, Real p) noexcept;
   static Real potential(const Numbers& n, Real p) noexcept;
   static Real potentialIntegral(const Numbers& n, Real p) noexcept;
   static Real curvature(const Numbers& n, Real p) noexcept;

@@ -23,9 +23,9 @@ struct Quadratic {
 
 template <class Real>
 struct QuadraticCurve : PlainDamping<Real> {
-  using Numbers = GuardedLaw<Real>;
+  using Numbers = EnergyStableLaw<Real>;
 
-  ERGOTIC_REALTIME static GuardedForce<Real> push(const Numbers& n, Real p) noexcept {
+  ERGOTIC_REALTIME static EnergyStableForce<Real> push(const Numbers& n, Real p) noexcept {
     const Real size = std::abs(p);
     return {p * (n.stiffness + n.nonlinearity * size),
             n.stiffness + Real(2) * n.nonlinearity * size};

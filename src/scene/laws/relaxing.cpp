@@ -48,11 +48,11 @@ struct Relaxing {
   template <class Real>
   static Force<Real> force(const RunNumbers<Real>& c, std::size_t l, Real u, Real v) noexcept {
     Real elastic = c(0, l) * (u + c(2, l));
-    for (std::size_t r = 0; r < kMostRelaxations; ++r) {
+    for (std::size_t r = 0; r < kMaxRelaxations; ++r) {
       const Real stiffness = c(3 + 3 * r, l);
       const Real fading = c(4 + 3 * r, l);
       const Real following = c(5 + 3 * r, l);
-      Real& q = c.state[kMostRelaxations * l + r];
+      Real& q = c.state[kMaxRelaxations * l + r];
       const Real last = q;
       q += following * v - fading * q;
       elastic += stiffness * q;
@@ -65,7 +65,7 @@ struct Relaxing {
   }
 };
 
-const char* unguarded(const Lia& /*lia*/) {
+const char* explicitOnly(const Lia& /*lia*/) {
   return "a link that remembers";
 }
 
@@ -86,7 +86,7 @@ constexpr LiaField kFields[] = {stiffnessField(), dampingField()};
 constexpr struct {
   std::array<double, 3> stiffness;
   std::array<double, 3> frequency;
-} kConstantLoss[kMostRelaxations] = {
+} kConstantLoss[kMaxRelaxations] = {
     {{0.4964, 0.6296, -0.3916}, {4.715, 0.8373, -0.2502}},
     {{0.2132, 2.305, -0.8829}, {6.796, 0.6413, -0.128}},
     {{0.4939, 4.001, -0.8781}, {8.876, 0.8478, 0.006458}},
@@ -120,9 +120,9 @@ Slopes relaxingSlopes(const Scene& scene, const Lia& lia, double step) {
 constexpr Law kRelaxingLaw = {
     {"relaxing spring", kWords, kFields, Law::Tables::kNone, false},
     Law::Kind::kRelaxing,
-    explicitForm<Relaxing>(kMostRelaxations),
+    explicitForm<Relaxing>(kMaxRelaxations),
     springForms<CubicCurve>,
-    unguarded,
+    explicitOnly,
     true,   // has_linear_part
     false,  // switches
     false,  // is_held

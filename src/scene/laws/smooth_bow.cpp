@@ -25,7 +25,8 @@ struct SmoothBow {
 
 template <class Real>
 struct SmoothBowCurve {
-  ERGOTIC_REALTIME static GuardedForce<Real> slip(const GuardedLaw<Real>& n, Real v) noexcept {
+  ERGOTIC_REALTIME static EnergyStableForce<Real> slip(const EnergyStableLaw<Real>& n,
+                                                       Real v) noexcept {
     constexpr Real kFar = 64;  // e^-(4 64^2) is 0: nor must it be 0 times infinity
     const Real r = std::min(std::abs(v / n.width), kFar);
     const Real chord = Real(0.63) * n.damping * std::exp(Real(-4) * r * r + Real(0.5));

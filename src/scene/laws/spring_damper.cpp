@@ -18,7 +18,7 @@ struct SpringDamper {
 
 /// Only a linear spring is refused: with a rest length a link is linear along its line only, and so
 /// is every damper.
-const char* unguarded(const Lia& lia) {
+const char* explicitOnly(const Lia& lia) {
   return lia.rest_length > 0.0 || lia.damping.factor > 0.0 ? nullptr : "a linear spring";
 }
 
@@ -43,7 +43,7 @@ constexpr Law kSpringDamperLaw = {
     Law::Kind::kLinear,
     explicitForm<SpringDamper>(),
     springForms<CubicCurve>,
-    unguarded,
+    explicitOnly,
     true,   // has_linear_part
     false,  // switches
     false,  // is_held

@@ -17,7 +17,7 @@ struct ElasticViscousTable {
   }
 };
 
-const char* unguarded(const Lia& lia) {
+const char* explicitOnly(const Lia& lia) {
   return drive(lia.law->viscous_table) <= lia.damping.factor ? nullptr
                                                              : "a table that drives what moves";
 }
@@ -65,7 +65,7 @@ constexpr Law kTableLaw = {
     Law::Kind::kElastic,
     explicitForm<ElasticViscousTable>(),
     springForms<TableCurve>,
-    unguarded,
+    explicitOnly,
     false,  // has_linear_part
     true,   // switches
     true,   // is_held

@@ -3,16 +3,17 @@
 
 #include <algorithm>
 
-#include "scene/laws/guarded_form.hpp"
+#include "scene/laws/energy_stable_form.hpp"
 
 namespace ergotic::scene {
 
-/// Guarded force of a table over elongation, with a damper or a table over velocity beside it.
+/// Energy-stable force of a table over elongation, with a damper or a table over velocity beside
+/// it.
 template <class Real>
 struct TableCurve {
-  using Numbers = GuardedLaw<Real>;
+  using Numbers = EnergyStableLaw<Real>;
 
-  ERGOTIC_REALTIME static GuardedForce<Real> push(const Numbers& n, Real p) noexcept {
+  ERGOTIC_REALTIME static EnergyStableForce<Real> push(const Numbers& n, Real p) noexcept {
     return n.table.at(p);
   }
   ERGOTIC_REALTIME static Real potential(const Numbers& n, Real p) noexcept {
@@ -23,7 +24,7 @@ struct TableCurve {
     if (!n.viscous.empty()) {
       // The chord, not the slope: it is what this much force dissipates at this velocity. None is
       // steeper than the curve, but where v is no more than rounding it would be.
-      const GuardedForce<Real> at = n.viscous.at(v * n.per_step);
+      const EnergyStableForce<Real> at = n.viscous.at(v * n.per_step);
       const Real chord = v != Real(0) ? at.force / v : at.slope * n.per_step;
       z += std::min(chord, std::max(Real(0), n.viscous.steepest()) * n.per_step);
     }
@@ -31,11 +32,12 @@ struct TableCurve {
   }
 };
 
-/// Guarded friction of a table over velocity.
+/// Energy-stable friction of a table over velocity.
 template <class Real>
 struct SlipTableCurve {
-  ERGOTIC_REALTIME static GuardedForce<Real> slip(const GuardedLaw<Real>& n, Real v) noexcept {
-    const GuardedForce<Real> at = n.viscous.at(v * n.per_step);
+  ERGOTIC_REALTIME static EnergyStableForce<Real> slip(const EnergyStableLaw<Real>& n,
+                                                       Real v) noexcept {
+    const EnergyStableForce<Real> at = n.viscous.at(v * n.per_step);
     return {at.force, at.slope * n.per_step};
   }
 };

@@ -19,8 +19,8 @@ namespace {
 
 // Params that refer to params that refer to ...: with the nesting of expressions, bounds the stack.
 constexpr int kLongestChain = 64;
-constexpr double kRounding = 1e-12;      // of the parts of an expression
-constexpr double kLeastFollowed = 1e-9;  // of what must be above 0 and follows an audio input
+constexpr double kRounding = 1e-12;    // of the parts of an expression
+constexpr double kMinFollowed = 1e-9;  // of what must be above 0 and follows an audio input
 
 bool isDigit(char c) {
   return (c >= '0' && c <= '9') || c == '.';
@@ -208,7 +208,7 @@ Value MdlNumbers::positiveValue(const MdlToken& token,
   if (!line) {
     return {number(token, what, limits)};
   }
-  line->minimum = kLeastFollowed;
+  line->minimum = kMinFollowed;
   return followed(token, *line);
 }
 

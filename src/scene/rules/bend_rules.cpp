@@ -10,7 +10,7 @@
 namespace ergotic::scene {
 namespace {
 
-constexpr double kMostWeight = 8.0;
+constexpr double kMaxWeight = 8.0;
 
 const Mat& endMat(const Scene& scene, const Bend::End& end) {
   return scene.mats[static_cast<std::size_t>(end.mat)];
@@ -66,7 +66,7 @@ std::string faultOf(const Scene& scene, const Bend& bend) {
 
 std::string endsFault(const Scene& scene, const Bend& bend) {
   const std::string link = "link " + quoted(bend.name);
-  if (bend.ends.size() < kFewestBendEnds || bend.ends.size() > kMostBendEnds) {
+  if (bend.ends.size() < kFewestBendEnds || bend.ends.size() > kMaxBendEnds) {
     return link + " has " + std::to_string(bend.ends.size()) + " ends, allowed: 3...5";
   }
   for (auto end = bend.ends.begin(); end != bend.ends.end(); ++end) {
@@ -86,8 +86,7 @@ std::string endsFault(const Scene& scene, const Bend& bend) {
 std::string weightsFault(const Bend& bend) {
   double sum = 0.0;
   for (const Bend::End& end : bend.ends) {
-    const bool is_whole =
-        std::abs(end.weight) <= kMostWeight && std::rint(end.weight) == end.weight;
+    const bool is_whole = std::abs(end.weight) <= kMaxWeight && std::rint(end.weight) == end.weight;
     if (!is_whole || end.weight == 0.0) {
       return "a weight of link " + quoted(bend.name) + " is " + numberText(end.weight) +
              ", allowed: whole numbers from -8 to 8 but 0";

@@ -16,19 +16,19 @@ const Section& sectionAt(const Scene& scene, int mat) {
 }
 
 /// Reason why `scheme: energy_stable` is refused, or nullptr.
-const char* unguarded(const Scene& scene, const Lia& lia) {
+const char* explicitOnly(const Scene& scene, const Lia& lia) {
   const Geometry a = sectionAt(scene, lia.a).geometry;
   const Geometry b = sectionAt(scene, lia.b).geometry;
   const bool is_straight = a == Geometry::kScalar || b == Geometry::kScalar ||
                            (dimensionsOf(a) == 1 && dimensionsOf(b) == 1);
   const bool is_linear = lia.type == LiaType::kSpringDamper && lia.rest_length == 0.0;
-  return is_linear && is_straight ? "a linear spring or damper" : lawOf(lia.type).unguarded(lia);
+  return is_linear && is_straight ? "a linear spring or damper" : lawOf(lia.type).explicitOnly(lia);
 }
 
 }  // namespace
 
-bool isGuardable(const Scene& scene, const Lia& lia) {
-  return unguarded(scene, lia) == nullptr;
+bool canBeEnergyStable(const Scene& scene, const Lia& lia) {
+  return explicitOnly(scene, lia) == nullptr;
 }
 
 Limits restLengthLimits(const Scene& scene, const Lia& lia) {
@@ -51,8 +51,8 @@ std::string schemeFault(const Scene& scene, const Lia& lia) {
     return "link " + quoted(lia.name) +
            " cannot be explicit, it sticks, allowed: auto, energy_stable";
   }
-  const char* kind = unguarded(scene, lia);
-  if (lia.scheme != Scheme::kGuarded || kind == nullptr) {
+  const char* kind = explicitOnly(scene, lia);
+  if (lia.scheme != Scheme::kEnergyStable || kind == nullptr) {
     return "";
   }
   return "link " + quoted(lia.name) + " cannot be energy-stable, it is " + kind +
@@ -74,7 +74,7 @@ std::string relaxationFault(const Scene& scene, const Lia& lia) {
   const std::vector<Relaxation>& all = lia.law->relaxations;
   const std::string of = " of link " + quoted(lia.name);
   const bool relaxes = lawOf(lia.type).kind == Law::Kind::kRelaxing;
-  if (all.size() > (relaxes ? kMostRelaxations : 0) || all.empty() == relaxes) {
+  if (all.size() > (relaxes ? kMaxRelaxations : 0) || all.empty() == relaxes) {
     return "branches" + of + " are " + std::to_string(all.size()) +
            ", allowed: 1...3 of a relaxing link";
   }

@@ -58,7 +58,7 @@ std::string relaxationFault(const Scene& scene, const Lia& lia);
 std::string liaFault(const Scene& scene, const Lia& lia);
 
 constexpr std::size_t kFewestBendEnds = 3;
-constexpr std::size_t kMostBendEnds = 5;
+constexpr std::size_t kMaxBendEnds = 5;
 
 /// Empty, or what is wrong: with the modules that it joins, with its weights, or with numbers that
 /// mean nothing in the geometry of their section. \pre endsFault: the modules exist

@@ -80,7 +80,7 @@ class TankRules {
     if (static_cast<std::size_t>(lia.tank) >= scene_.tanks.size()) {
       return "has a tank that does not exist, there are " + std::to_string(scene_.tanks.size());
     }
-    const bool is_hard = lia.type == LiaType::kCubic && lia.scheme == Scheme::kGuarded &&
+    const bool is_hard = lia.type == LiaType::kCubic && lia.scheme == Scheme::kEnergyStable &&
                          largest(scene_, lia.stiffness) == 0.0 &&
                          largest(scene_, lia.damping) == 0.0 && lia.law->nonlinearity.audio < 0 &&
                          rangeOf(scene_, lia.law->nonlinearity).lowest >= 0.0;

@@ -12,7 +12,7 @@
 
 namespace ergotic::scene {
 namespace {
-constexpr int kMostPower = 4;
+constexpr int kMaxPower = 4;
 constexpr int kTwelve = 12;
 
 /// A product of units: 10^decimals times `factor` of m^a kg^b s^c V^d rad^e.
@@ -81,7 +81,7 @@ bool multiply(Unit& product, std::string_view factor, int sign) {
       hat == std::string_view::npos ? 1 : parseInteger(factor.substr(hat + 1));
   const std::optional<Unit> unit =
       factor == "1" ? std::optional(Unit()) : simpleUnit(factor.substr(0, hat));
-  if (!unit || !power || *power < 1 || *power > kMostPower) {
+  if (!unit || !power || *power < 1 || *power > kMaxPower) {
     return false;
   }
   product.multiply(*unit, sign * *power);
@@ -230,7 +230,7 @@ std::string Kind::unit() const {
     int left = std::abs(twelfths[i] / kTwelve);
     std::string& text = twelfths[i] > 0 ? above : below;
     while (left > 0) {
-      const int power = std::min(left, kMostPower);
+      const int power = std::min(left, kMaxPower);
       text += twelfths[i] > 0 ? (text.empty() ? "" : " ") : "/";
       text += kNames[i] + (power > 1 ? "^" + std::to_string(power) : std::string());
       left -= power;

@@ -11,7 +11,7 @@
 
 namespace ergotic::scene {
 namespace {
-constexpr std::size_t kMostSpeakers = 64;
+constexpr std::size_t kMaxSpeakers = 64;
 constexpr double kSame = 1e-6;  // between unit vectors
 constexpr Limits kElevationLimits{"rad", -90.0 * kDegree, 90.0 * kDegree};
 
@@ -51,7 +51,7 @@ Speakers speakersOf(const Layout& layout) {
 }
 
 Speakers speakersIn(const SceneBuilder& builder, const Node& list, const std::string& what) {
-  if (list.size() < 2 || list.size() > kMostSpeakers) {
+  if (list.size() < 2 || list.size() > kMaxSpeakers) {
     builder.fail(list.place(), what + " is " + kindOf(list) +
                                    ", allowed: 2...64 of [azimuth, elevation, channel]");
   }

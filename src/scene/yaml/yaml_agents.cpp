@@ -130,8 +130,8 @@ void addPoint(const GestureReader& rows, int slice, double first_tick, PointList
 
 GestureOfSlice readGesture(const PointFiles::File& file, int slice) {
   std::istringstream in(file.text);
-  constexpr auto kMostSlices = static_cast<int>(kSliceLimits.maximum) + 1;
-  GestureReader rows(in, file.path, kMostSlices, kTargetLimits);
+  constexpr auto kSliceCount = static_cast<int>(kSliceLimits.maximum) + 1;
+  GestureReader rows(in, file.path, kSliceCount, kTargetLimits);
   if (slice >= rows.slices()) {
     rows.failAtLine("no column of slice " + std::to_string(slice) + ", there are " +
                     std::to_string(rows.slices()) + " slices");

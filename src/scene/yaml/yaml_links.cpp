@@ -208,7 +208,7 @@ void readTreatment(SceneBuilder& builder, const YamlMap& map, Lia& lia) {
     refuse(map, "scheme", schemeFault(scene, lia));
   }
   // A table may be split into parts that are.
-  if (!isGuardable(scene, lia) && lia.type != LiaType::kTable) {
+  if (!canBeEnergyStable(scene, lia) && lia.type != LiaType::kTable) {
     lia.scheme = Scheme::kExplicit;
   }
   if (map.has("filter")) {

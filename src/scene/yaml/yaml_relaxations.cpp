@@ -14,7 +14,7 @@ constexpr const char* kKeys[] = {"branches", "loss_factor", "material"};
 void readBranches(const SceneBuilder& builder, const YamlMap& map, Lia& lia) {
   const Node& list = map.at("branches");
   const std::string what = "'branches' of " + map.what();
-  if (!list.isList() || list.size() < 1 || list.size() > kMostRelaxations) {
+  if (!list.isList() || list.size() < 1 || list.size() > kMaxRelaxations) {
     map.fail("branches",
              what + " is " + kindOf(list) + ", allowed: [[N/m, s], ...], 1...3 of them");
   }

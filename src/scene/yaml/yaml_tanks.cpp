@@ -83,7 +83,7 @@ void readTank(SceneBuilder& builder, const YamlMap& map, Lia& lia) {
   const auto found =
       std::find_if(tanks.begin(), tanks.end(), [&](const Tank& tank) { return tank.name == name; });
   lia.tank = static_cast<int>(found - tanks.begin());
-  lia.scheme = Scheme::kGuarded;
+  lia.scheme = Scheme::kEnergyStable;
   if (found == tanks.end()) {
     tanks.emplace_back();
     tanks.back().name = name;

@@ -16,8 +16,8 @@ namespace {
 
 using What = Truth::What;
 
-constexpr std::size_t kMostTruths = 1000;
-constexpr std::size_t kMostExpected = 32;
+constexpr std::size_t kMaxTruths = 1000;
+constexpr std::size_t kMaxExpected = 32;
 constexpr std::size_t kMaxSourceBytes = 500;
 constexpr Limits kSeconds{"s", 0.0, 1000.0, true};
 constexpr Limits kLater{"s", 0.0, 1000.0};
@@ -41,7 +41,7 @@ const std::vector<Kind>& kinds() {
   static const std::vector<Kind> all = {
       {What::kPitch, {"of"}, {"near"}},
       {What::kPartials, {"of", "pitch", "to"}, {"inharmonicity"}, 0, 0},
-      {What::kRatios, {"of", "pitch"}, {}, 1, kMostExpected},
+      {What::kRatios, {"of", "pitch"}, {}, 1, kMaxExpected},
       {What::kT60, {"of"}, {"near"}},
       {What::kHarmonicsLeft, {"of", "pitch", "to", "divisible_by"}, {}},
       {What::kContact, {"of", "figure"}, {}},
@@ -324,9 +324,9 @@ std::vector<Truth> truthsOf(const SceneBuilder& builder, const YamlMap& top) {
     return truths;
   }
   const Node& list = top.at("truths");
-  if (!list.isList() || list.size() > kMostTruths) {
+  if (!list.isList() || list.size() > kMaxTruths) {
     top.fail("truths", "'truths' is " + kindOf(list) + ", allowed: a list of at most " +
-                           std::to_string(kMostTruths));
+                           std::to_string(kMaxTruths));
   }
   for (std::size_t i = 0; i < list.size(); ++i) {
     const YamlMap map(builder, list[i], "truth " + std::to_string(i + 1), top.placeAt("truths", i));

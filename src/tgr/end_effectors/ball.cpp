@@ -16,7 +16,7 @@ namespace ergotic::tgr {
 namespace {
 
 constexpr int kBallRods = 3;
-constexpr double kMostSlender = 20.0;  // rod over its horizontal part, at rest
+constexpr double kMaxSlender = 20.0;  // rod over its horizontal part, at rest
 
 /// Unit vectors from the axis to the slices: 90, 210, 330 degrees.
 Eigen::Vector2d directionOf(int rod) {
@@ -39,7 +39,7 @@ class Ball final : public Kinematics {
       directions_.col(i) = directionOf(i);
     }
     const std::array<double, kBallRods> rest{};
-    most_gain_ = kMostGain * jacobianAt(rest.data(), {0.0, 0.0, rest_}).norm();
+    most_gain_ = kMaxGain * jacobianAt(rest.data(), {0.0, 0.0, rest_}).norm();
   }
 
   ERGOTIC_REALTIME bool forward(const double* q,
@@ -105,10 +105,10 @@ class Ball final : public Kinematics {
 
 std::unique_ptr<Kinematics> makeBall(const EndEffectorConfig& config) {
   const double offset = config.base_radius - config.platform_radius;
-  if (std::abs(offset) * kMostSlender < config.rod) {
+  if (std::abs(offset) * kMaxSlender < config.rod) {
     throw Exception("base_radius - platform_radius = " + scene::numberText(offset) +
                     " m holds no platform sideways, allowed: beyond +-" +
-                    scene::numberText(config.rod / kMostSlender) + " m");
+                    scene::numberText(config.rod / kMaxSlender) + " m");
   }
   return std::make_unique<Ball>(config.rod, offset);
 }

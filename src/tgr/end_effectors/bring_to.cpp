@@ -10,9 +10,9 @@ namespace {
 
 constexpr int kSlices = Kinematics::kMaxSlicesOfOne;
 constexpr int kCoordinates = Kinematics::kMaxCoordinates;
-constexpr int kMostSteps = 60;
-constexpr double kLeastDamping = 1e-12;
-constexpr double kMostDamping = 1e9;
+constexpr int kMaxSteps = 60;
+constexpr double kMinDamping = 1e-12;
+constexpr double kMaxDamping = 1e9;
 
 using Vector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kCoordinates, 1>;
 using Matrix =
@@ -40,10 +40,10 @@ Place placeAt(const Kinematics& kinematics, const Vector& q, const double* wante
 double bringTo(const Kinematics& kinematics, const double* x, double most, double* q) noexcept {
   Place now = placeAt(kinematics, Eigen::Map<const Vector>(q, kinematics.slices()), x);
   double damping = 1e-3;
-  for (int i = 0; i < kMostSteps && now.is_within && damping < kMostDamping; ++i) {
+  for (int i = 0; i < kMaxSteps && now.is_within && damping < kMaxDamping; ++i) {
     Square normal = now.jacobian.transpose() * now.jacobian;
     normal.diagonal() *= 1.0 + damping;
-    normal.diagonal().array() += kLeastDamping;
+    normal.diagonal().array() += kMinDamping;
     const Vector step = normal.ldlt().solve(now.jacobian.transpose() * now.missing);
     const Place next = placeAt(kinematics, (now.q + step).cwiseMax(-most).cwiseMin(most), x);
     if (next.is_within && next.missing.squaredNorm() < now.missing.squaredNorm()) {

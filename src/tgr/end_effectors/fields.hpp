@@ -33,7 +33,7 @@ const TypeTraits& traitsOf(EndEffectorType type);
 const std::vector<std::string>& typeNames();
 
 constexpr int kFewestPoints = 3;  ///< number of points of a handle
-constexpr int kMostPoints = Kinematics::kMaxCoordinates / 3;
+constexpr int kMaxPoints = Kinematics::kMaxCoordinates / 3;
 constexpr scene::Limits kPointLimits{"m", -1.0, 1.0};
 
 /// Number of coordinates of an end-effector with given slices and points.

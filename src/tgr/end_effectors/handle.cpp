@@ -29,7 +29,7 @@ using Circle = Eigen::Matrix<double, 3, 6>;
 constexpr int kRods = 6;
 constexpr double kHalfPair =
     kPi / 18.0;  // slices, and ends of rods, stand in pairs 20 degrees wide
-constexpr int kMostIterations = 12;
+constexpr int kMaxIterations = 12;
 constexpr double kConverged = 1e-9;  // last step over rod; the error left is about its square
 constexpr double kCosineOfHandleTilt = 0.5;
 constexpr double kWorstCondition = 30.0;  // at rest; turns count times platform_radius
@@ -97,7 +97,7 @@ class Handle final : public Kinematics {
                       scene::numberText(condition) +
                       ", allowed: <= " + scene::numberText(kWorstCondition));
     }
-    most_gain_ = kMostGain * at_rest.norm();
+    most_gain_ = kMaxGain * at_rest.norm();
   }
 
   ERGOTIC_REALTIME bool forward(const double* q,
@@ -156,7 +156,7 @@ class Handle final : public Kinematics {
   /// \return false if it does not converge, or to where no rod may be
   bool solve(const double* q, Stance& stance) const noexcept {
     stance = atRest(Eigen::Map<const Vector6d>(q).mean());
-    for (int n = 0; n < kMostIterations; ++n) {
+    for (int n = 0; n < kMaxIterations; ++n) {
       place(q, stance);
       const Vector6d error =
           0.5 * (stance.rods.colwise().squaredNorm().array() - rod_ * rod_).matrix().transpose();
@@ -202,9 +202,9 @@ class Handle final : public Kinematics {
 
 void checkPoints(const std::vector<Eigen::Vector3d>& points) {
   const int count = static_cast<int>(points.size());
-  if (count < kFewestPoints || count > kMostPoints) {
+  if (count < kFewestPoints || count > kMaxPoints) {
     throw Exception(std::to_string(count) + " points, allowed: " + std::to_string(kFewestPoints) +
-                    " to " + std::to_string(kMostPoints));
+                    " to " + std::to_string(kMaxPoints));
   }
   Eigen::Matrix3Xd all(3, count);
   for (int i = 0; i < count; ++i) {

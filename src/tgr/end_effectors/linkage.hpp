@@ -12,7 +12,7 @@ constexpr double kFlattestRod = 0.2;
 constexpr double kFlattestRodAtRest = 0.3;
 /// Workspace limit: the Jacobian's Frobenius norm over that at rest. It grows without bound where
 /// the rods cannot hold the platform any more.
-constexpr double kMostGain = 3.0;
+constexpr double kMaxGain = 3.0;
 
 /// Height of the platform over slices at rest.
 /// \param offset  horizontal distance between the ends of a rod, m

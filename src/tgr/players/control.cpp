@@ -23,8 +23,8 @@ constexpr int kUpperManager = 15;
 
 /// Members of a zone besides another one that has so many: both managers have channels, too.
 int membersBeside(int others, int members) {
-  constexpr int kMostOfBoth = 14;
-  return others > 0 ? std::clamp(kMostOfBoth - others, 0, members) : members;
+  constexpr int kMaxOfBoth = 14;
+  return others > 0 ? std::clamp(kMaxOfBoth - others, 0, members) : members;
 }
 
 }  // namespace

@@ -62,8 +62,7 @@ void HandWays::follow(const Hand& hand,
   if (last.is_glide || begin_s < last.end_s) {  // else it stands there
     strokes.push_back(lineTo(hand, from_m, begin_s - now_s));
   }
-  const double way_s =
-      std::clamp(std::abs(target_m - from_m) / speed, kLagS, HandMove::kMostGlideS);
+  const double way_s = std::clamp(std::abs(target_m - from_m) / speed, kLagS, HandMove::kMaxGlideS);
   last = {begin_s, begin_s + way_s, from_m, target_m, false};
   strokes.push_back(lineTo(hand, target_m, last.end_s - now_s));
 }

@@ -111,7 +111,7 @@ void Keyboard::strike(
     const Key& key, double target_m, double speed, double after_s, Strokes& strokes) {
   const double way = std::abs(key.line->to_m - key.line->from_m);
   ways_.glide(key.hand, target_m,
-              std::min(HandMove::kPeakOfMean * way / speed, HandMove::kMostGlideS), after_s, now_s_,
+              std::min(HandMove::kPeakOfMean * way / speed, HandMove::kMaxGlideS), after_s, now_s_,
               strokes);
 }
 
@@ -175,7 +175,7 @@ void Keyboard::goBack(const Key& key, Strokes& strokes) {
     return settle(key, strokes);
   }
   const double glide_s = HandMove::kPeakOfMean * std::abs(place_m - told_m) / key.line->back;
-  ways_.glide(key.hand, place_m, std::min(glide_s, HandMove::kMostGlideS), 0.0, now_s_, strokes);
+  ways_.glide(key.hand, place_m, std::min(glide_s, HandMove::kMaxGlideS), 0.0, now_s_, strokes);
 }
 
 /// Follows a pedal, or a finger that presses more or less.

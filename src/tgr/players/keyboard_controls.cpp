@@ -9,7 +9,7 @@ namespace {
 
 using Kind = Control::Kind;
 
-constexpr double kMost = 127.0;
+constexpr double kMax = 127.0;
 enum Status : std::uint8_t {
   kNoteOff = 0x80,
   kNoteOn = 0x90,
@@ -48,7 +48,7 @@ Keyboard::Played Keyboard::play(const std::uint8_t* bytes, int size, double now_
   Played played;
   const int status = size > 0 ? bytes[0] & kWithoutChannel : 0;
   const int length = status == kProgram || status == kChannelPressure ? 2 : 3;
-  const auto is_datum = [](std::uint8_t byte) { return byte <= kMost; };
+  const auto is_datum = [](std::uint8_t byte) { return byte <= kMax; };
   if (size < length || !std::all_of(bytes + 1, bytes + length, is_datum)) {
     return played;
   }
@@ -71,7 +71,7 @@ Keyboard::Played Keyboard::play(const std::uint8_t* bytes, int size, double now_
       played.program = first;
       break;
     case kChannelPressure:
-      setControl(kPressureControl, channel, first / kMost, played);
+      setControl(kPressureControl, channel, first / kMax, played);
       break;
     case kBend:
       setControl(kBendControl, channel, bendOf(first, second), played);
@@ -117,7 +117,7 @@ void Keyboard::setController(int channel, int number, int value, Played& played)
     return;
   }
   setPedal(number, value, played.strokes);
-  setControl({Kind::kController, number}, channel, value / kMost, played);
+  setControl({Kind::kController, number}, channel, value / kMax, played);
 }
 
 /// Pedals come up, bend and pressure go home; wheels and volume stay where they are.
@@ -140,7 +140,7 @@ void Keyboard::setKeyPressure(int channel, int note, int value, Played& played) 
     key_pressures_.erase(name);
   }
   if (const auto down = down_.find(name); down != down_.end() && down->second.is_held) {
-    down->second.pressure = value / kMost;
+    down->second.pressure = value / kMax;
     settle(*keyOf(note), played.strokes);
   }
   if (!zones_.isMember(channel)) {
@@ -148,7 +148,7 @@ void Keyboard::setKeyPressure(int channel, int note, int value, Played& played) 
     for (const auto& [other, pressure] : key_pressures_) {
       most = std::max(most, pressure);
     }
-    moveByMap(kPressureControl, most / kMost, played);
+    moveByMap(kPressureControl, most / kMax, played);
   }
 }
 

@@ -11,8 +11,8 @@
 namespace ergotic::tgr {
 
 PlayMap readPlayMapFile(const std::string& path) {
-  constexpr std::size_t kMostBytes = std::size_t{1} << 20U;
-  return readPlayMap(files::readFile(path, kMostBytes), path);
+  constexpr std::size_t kMaxBytes = std::size_t{1} << 20U;
+  return readPlayMap(files::readFile(path, kMaxBytes), path);
 }
 
 std::string mapBeside(const std::string& scene_file) {

@@ -86,8 +86,8 @@ ToolHands::Tool& ToolHands::toolNamed(const std::string& name) {
     }
     names += (names.empty() ? "" : ", ") + tool.config.name;
   }
-  constexpr std::size_t kMostOfName = 64;
-  refuseWish("end_effector", "'" + name.substr(0, kMostOfName) + "'",
+  constexpr std::size_t kMaxOfName = 64;
+  refuseWish("end_effector", "'" + name.substr(0, kMaxOfName) + "'",
              names.empty() ? "none, as none is there" : names);
 }
 

@@ -9,12 +9,12 @@
 namespace ergotic::tgr {
 namespace {
 
-constexpr double kLeastLimitN = 4.0;  // of less a growth is nothing to speak of
+constexpr double kMinLimitN = 4.0;  // of less a growth is nothing to speak of
 
 }  // namespace
 
 BlowUpDetector::BlowUpDetector(double limit, double raw_limit) noexcept
-    : limit_(std::max(limit, kLeastLimitN)),
+    : limit_(std::max(limit, kMinLimitN)),
       raw_limit_(raw_limit),
       least_base_(limit_ / 25.0),
       least_change_(limit_ / 4.0) {}

@@ -118,7 +118,7 @@ class FaultTeller {
   static constexpr std::array<int, 10> kFaults = {SIGSEGV, SIGBUS,  SIGILL, SIGFPE,  SIGABRT,
                                                   SIGQUIT, SIGTRAP, SIGSYS, SIGXCPU, SIGXFSZ};
   static constexpr std::size_t kOfThreads = 5;  // which nobody survives
-  static constexpr std::size_t kMost = 16;      // more are told by the kernel
+  static constexpr std::size_t kMax = 16;       // more are told by the kernel
 
   /// Handler of fatal signals: notifies the guardians, then the signal takes its usual course.
   static void onFault(int signal) {
@@ -149,7 +149,7 @@ class FaultTeller {
   static inline std::mutex mutex;
   static inline int count = 0;
   static inline std::array<struct sigaction, kFaults.size()> earlier{};
-  static inline std::array<std::atomic<pid_t>, kMost> guardians{};
+  static inline std::array<std::atomic<pid_t>, kMax> guardians{};
 };
 
 /// A page of memory without a name, and its file, which is open as long as this is.
@@ -282,11 +282,11 @@ ERGOTIC_REALTIME void Guardian::beat() noexcept {
 }
 
 bool Guardian::isWatching() noexcept {
-  constexpr int kMostAsked = 8;
+  constexpr int kMaxAsked = 8;
   const std::int64_t looks = page_->looks;
   asked_ = looks == looks_ ? asked_ + 1 : 0;
   looks_ = looks;
-  if (asked_ >= kMostAsked) {
+  if (asked_ >= kMaxAsked) {
     ::kill(pid_, SIGKILL);
     return false;
   }

@@ -11,8 +11,8 @@ namespace ergotic::tgr {
 namespace {
 
 constexpr double kStillS = 0.009;
-constexpr double kWorth = 0.05;           // of the limit: what comes back from less is no kick
-constexpr std::int64_t kLeastStill = 20;  // samples: fewer may be the same by chance
+constexpr double kWorth = 0.05;         // of the limit: what comes back from less is no kick
+constexpr std::int64_t kMinStill = 20;  // samples: fewer may be the same by chance
 
 std::int64_t ticksOf(double seconds, double tick_s) {
   return static_cast<std::int64_t>(std::ceil(seconds / tick_s));
@@ -24,7 +24,7 @@ PositionCheck::Rules positionRules(const SafetyConfig& config, double tick_s) {
   rules.max_step_m = config.max_speed_m_per_s * tick_s;
   if (config.frozen_s > 0.0) {
     rules.frozen_ticks = ticksOf(config.frozen_s, tick_s);
-    rules.still_ticks = std::max(ticksOf(kStillS, tick_s), kLeastStill);
+    rules.still_ticks = std::max(ticksOf(kStillS, tick_s), kMinStill);
   }
   return rules;
 }

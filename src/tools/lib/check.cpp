@@ -53,7 +53,7 @@ Json linksOf(const Scene& scene) {
     const bool is_stretch =
         lia.tank >= 0 && scene.tanks[static_cast<std::size_t>(lia.tank)].is_mean;
     ++by_type[is_stretch ? "stretch" : scene::lawOf(lia.type).name];
-    ++by_scheme[lia.scheme == scene::Scheme::kGuarded ? "energy_stable" : "explicit"];
+    ++by_scheme[lia.scheme == scene::Scheme::kEnergyStable ? "energy_stable" : "explicit"];
     const bool across = scene.mats[at(lia.a)].section != scene.mats[at(lia.b)].section;
     between_sections += across ? 1 : 0;
   }

@@ -25,7 +25,7 @@ using physics::Wish;
 
 constexpr double kOffCents = 2.0;  // that are worth a word
 constexpr double kLongS = 60.0;    // of T60
-constexpr double kMostOfLoss = 0.5;
+constexpr double kMaxOfLoss = 0.5;
 
 /// Formats a number that is to be written into a scene: exact to a hundredth of a cent.
 std::string exactly(double value) {
@@ -126,7 +126,7 @@ Json adviceOn(const physics::HeardBodies& heard,
       long_ones.push_back(body.name);
     }
     for (const physics::Influence& one : body.influences) {
-      if (one.of_loss >= kMostOfLoss) {
+      if (one.of_loss >= kMaxOfLoss) {
         advice.push_back(scene::quoted(body.name) + " loses " + shortly(100.0 * one.of_loss) +
                          " % through " + scene::quoted(one.link));
       }

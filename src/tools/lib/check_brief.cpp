@@ -11,7 +11,7 @@
 namespace ergotic::tools {
 namespace {
 
-constexpr std::size_t kMostNamed = 8;  // of a list; a scene may have hundreds
+constexpr std::size_t kMaxNamed = 8;  // of a list; a scene may have hundreds
 
 std::string digits(double value, int count = 4) {
   std::ostringstream text;
@@ -45,11 +45,11 @@ std::string noteOf(double hz) {
 
 std::string listOf(const Json& items, const std::function<std::string(const Json&)>& said) {
   std::string list;
-  for (std::size_t i = 0; i < std::min(items.size(), kMostNamed); ++i) {
+  for (std::size_t i = 0; i < std::min(items.size(), kMaxNamed); ++i) {
     list += (list.empty() ? "" : ", ") + said(items[i]);
   }
-  if (items.size() > kMostNamed) {
-    list += " and " + std::to_string(items.size() - kMostNamed) + " more";
+  if (items.size() > kMaxNamed) {
+    list += " and " + std::to_string(items.size() - kMaxNamed) + " more";
   }
   return list.empty() ? "none" : list;
 }

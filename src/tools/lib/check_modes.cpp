@@ -140,7 +140,7 @@ void addOptions(CLI::App& app, ModesChoice& choice) {
   CLI::Option* const modes =
       app.add_flag("--modes", choice.are_wanted, "say at what the scene sounds, and nothing else");
   app.add_option("--most", choice.window.most, "of the modes, the lowest (default: 20)")
-      ->check(CLI::Range(1, physics::kMostModes))
+      ->check(CLI::Range(1, physics::kMaxModes))
       ->needs(modes);
   app.add_option("--from", choice.window.from_hz, "lowest frequency of the modes, Hz (default: 0)")
       ->check(CLI::NonNegativeNumber)

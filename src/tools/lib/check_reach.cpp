@@ -25,9 +25,9 @@ using physics::Meeting;
 using physics::PortReach;
 using physics::shortly;
 
-constexpr double kSamePlace = 1e-9;      // m of the hand: met together
-constexpr std::size_t kMostPushed = 4;   // the nearest of what is pushed on to
-constexpr std::size_t kMostCarried = 8;  // of names; a slice may carry hundreds
+constexpr double kSamePlace = 1e-9;     // m of the hand: met together
+constexpr std::size_t kMaxPushed = 4;   // the nearest of what is pushed on to
+constexpr std::size_t kMaxCarried = 8;  // of names; a slice may carry hundreds
 
 /// Metres of the port's own hand as those of an end-effector's coordinate.
 void scaleBy(double scale, PortReach& reach) {
@@ -51,11 +51,11 @@ std::string millimetres(double m) {
 
 std::string listed(const std::vector<std::string>& names) {
   std::string list;
-  for (std::size_t i = 0; i < std::min(names.size(), kMostCarried); ++i) {
+  for (std::size_t i = 0; i < std::min(names.size(), kMaxCarried); ++i) {
     list += (i == 0 ? "" : ", ") + names[i];
   }
-  return names.size() > kMostCarried
-             ? list + " and " + std::to_string(names.size() - kMostCarried) + " more"
+  return names.size() > kMaxCarried
+             ? list + " and " + std::to_string(names.size() - kMaxCarried) + " more"
              : list;
 }
 
@@ -144,7 +144,7 @@ Json meetingReport(const Meeting& meeting, const std::string& module, double str
   }
   Json then = Json::array();
   for (const physics::PushedMeeting& one : meeting.then) {
-    if (then.size() < kMostPushed && std::abs(one.at_m) <= stroke_m) {
+    if (then.size() < kMaxPushed && std::abs(one.at_m) <= stroke_m) {
       then.push_back({{"thing", one.thing}, {"law", one.law}, {"link", one.link}});
       addPlace(one.at_m, stroke_m, then.back());
     }

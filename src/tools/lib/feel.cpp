@@ -21,7 +21,7 @@ constexpr std::size_t kSlopeTicks = 8;
 constexpr double kNoise = 0.05;  // of the largest force: no less is let go
 constexpr double kSlow = 0.01;   // m/s
 constexpr double kFast = 0.5;
-constexpr double kMostTicks = 1e7;
+constexpr double kMaxTicks = 1e7;
 
 /// A hand at one slice of a model.
 class Hand {
@@ -135,9 +135,9 @@ Stroke feel(station::Performer& performer, int slice, double travel, double spee
                     ": no port of the scene moves with this slice");
   }
   const double rate_hz = performer.instrument->rates().gesturalHz();
-  if (!(std::abs(travel) / speed * rate_hz < kMostTicks) || travel == 0.0) {
+  if (!(std::abs(travel) / speed * rate_hz < kMaxTicks) || travel == 0.0) {
     throw Exception("--feel-travel " + std::to_string(travel) + " m at " + std::to_string(speed) +
-                    " m/s: allowed: not 0, and at most " + std::to_string(kMostTicks) + " ticks");
+                    " m/s: allowed: not 0, and at most " + std::to_string(kMaxTicks) + " ticks");
   }
   performer.restart();
   Hand hand(performer, slice);

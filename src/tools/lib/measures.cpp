@@ -16,9 +16,9 @@ namespace ergotic::tools {
 namespace {
 
 using Complex = std::complex<double>;
-constexpr double kLobe = 4.0;            // half width of the main lobe of the window, of 1/length
-constexpr double kBand = 1.0 / 9.0;      // of a frequency: two semitones
-constexpr std::size_t kMostPoles = 360;  // samples of a band from which poles are taken
+constexpr double kLobe = 4.0;           // half width of the main lobe of the window, of 1/length
+constexpr double kBand = 1.0 / 9.0;     // of a frequency: two semitones
+constexpr std::size_t kMaxPoles = 360;  // samples of a band from which poles are taken
 constexpr std::size_t kSpectrum = 2048;
 constexpr double kFirstDb = -5.0;
 constexpr double kLastDb = -25.0;
@@ -231,9 +231,9 @@ double decayOf(const Sound& sound, double begin_s, double near_hz) {
 std::vector<Pole> polesNear(const Sound& sound, double begin_s, double near_hz, int count) {
   const double seconds = sound.seconds() - begin_s;
   const double half_width_hz =
-      std::min(kBand * near_hz, static_cast<double>(kMostPoles) / 4.0 / std::max(seconds, 1e-9));
+      std::min(kBand * near_hz, static_cast<double>(kMaxPoles) / 4.0 / std::max(seconds, 1e-9));
   const Band band = bandOf(sound, begin_s, near_hz, half_width_hz);
-  const auto size = static_cast<Eigen::Index>(std::min(band.samples.size(), kMostPoles));
+  const auto size = static_cast<Eigen::Index>(std::min(band.samples.size(), kMaxPoles));
   const Eigen::Index rows = size / 3;
   if (rows < 2 * count) {
     tooShort(sound, 2.0 * sound.seconds());

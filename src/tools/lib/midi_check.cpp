@@ -106,10 +106,10 @@ class MidiFileCheck {
 
   /// A number of seven bits to a byte.
   std::uint32_t nextNumber() {
-    constexpr int kMostBytes = 4;
+    constexpr int kMaxBytes = 4;
     const std::size_t begin = at_;
     std::uint32_t value = 0;
-    for (int i = 0; i < kMostBytes; ++i) {
+    for (int i = 0; i < kMaxBytes; ++i) {
       const unsigned byte = next();
       value = value << 7U | (byte & 0x7fU);
       if (byte < 0x80U) {

@@ -291,10 +291,10 @@ SoundWish wishOf(const RenderOptions& options) {
 }
 
 void sayHowLinksFared(const physics::Instrument& instrument) {
-  std::vector<physics::GuardReport> guards = instrument.makeGuardReports();
-  instrument.readGuards(guards);
+  std::vector<physics::TankReport> tanks = instrument.makeTankReports();
+  instrument.readTanks(tanks);
   for (const std::string& warning :
-       station::guardWarnings(instrument.scene(), instrument.rates(), guards)) {
+       station::tankWarnings(instrument.scene(), instrument.rates(), tanks)) {
     say(warning);
   }
 }

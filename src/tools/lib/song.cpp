@@ -15,7 +15,7 @@
 namespace ergotic::tools {
 namespace {
 
-constexpr std::size_t kMostSongBytes = std::size_t{64} << 20U;
+constexpr std::size_t kMaxSongBytes = std::size_t{64} << 20U;
 constexpr double kLongestSongS = 1e6;  // as --seconds
 
 /// Keeps what libraries that log by GLib would write to the terminal.
@@ -39,8 +39,8 @@ class GlibLog {
 bool isOfAChannel(const smf_event_t& event) {
   constexpr unsigned char kFirst = 0x80;
   constexpr unsigned char kLast = 0xef;
-  constexpr int kMostBytes = 3;
-  return event.midi_buffer_length >= 1 && event.midi_buffer_length <= kMostBytes &&
+  constexpr int kMaxBytes = 3;
+  return event.midi_buffer_length >= 1 && event.midi_buffer_length <= kMaxBytes &&
          event.midi_buffer[0] >= kFirst && event.midi_buffer[0] <= kLast;
 }
 
@@ -76,7 +76,7 @@ void addMessages(const smf_t& song, Song& read) {
 }  // namespace
 
 Song readSong(const std::string& file) {
-  const std::string bytes = files::readFile(file, kMostSongBytes);
+  const std::string bytes = files::readFile(file, kMaxSongBytes);
   checkMidiFile(bytes, file);
   Song read;
   read.file = file;

@@ -24,7 +24,7 @@ bool growsAMillionfold(const scene::Scene& scene, int ratio) {
 }
 
 /// Two masses in a plane. The light one has a heavy damper, along a line that turns: what the
-/// damper takes in one direction it gives in another. Guarded it only takes.
+/// damper takes in one direction it gives in another. Energy-stable it only takes.
 std::string turning(const std::string& scheme) {
   return "ergotic: 1\nsections:\n  s: {rate: audio, geometry: plane}\nmats:\n"
          "  g: {type: ground, section: s}\n"
@@ -110,7 +110,7 @@ TEST(CertifiedInPlanesTest, RingsThatSeeOneAxisTurnedRoundAreStiffer) {
 }
 
 /// Whatever is advised against a damper between two geometries can be done.
-TEST(CertifiedInPlanesTest, DampersBetweenALineAndAPlaneMayBeGuarded) {
+TEST(CertifiedInPlanesTest, DampersBetweenALineAndAPlaneMayBeEnergyStable) {
   for (const std::string between : {"[a, b]", "[b, a]"}) {
     const scene::Scene scene = scene::readYaml(
         "ergotic: 1\nsections: {l: {geometry: line}, p: {geometry: plane}}\nmats:\n"

@@ -53,11 +53,11 @@ TEST(CertifiedTest, SoftPluckPumpsWhatSwingsInTimeWithTheSteps) {
   EXPECT_EQ(certify(b.scene, {kRate, 14}).verdict, Verdict::kBounded);
 }
 
-/// A pluck is a hill of potential, so its guard has nothing to cut.
-TEST(CertifiedTest, GuardedPluckPlaysAsTheExplicitOne) {
+/// A pluck is a hill of potential, so its tank has nothing to cut.
+TEST(CertifiedTest, EnergyStablePluckPlaysAsTheExplicitOne) {
   for (const double speed : {0.4, 0.9, 1.1}) {  // of what takes it over the hill
     double after[2];
-    for (const Scheme scheme : {Scheme::kExplicit, Scheme::kGuarded}) {
+    for (const Scheme scheme : {Scheme::kExplicit, Scheme::kEnergyStable}) {
       SceneBuilder b;
       const double k = 0.04 * kRate * kRate;
       const int mass = b.mass(1.0, -0.0101, speed * 0.01 * std::sqrt(0.09 * k));
@@ -69,7 +69,7 @@ TEST(CertifiedTest, GuardedPluckPlaysAsTheExplicitOne) {
       for (int n = 0; n < 4000; ++n) {
         player.tick();
       }
-      after[scheme == Scheme::kGuarded ? 1 : 0] = player.heard[0].back();
+      after[scheme == Scheme::kEnergyStable ? 1 : 0] = player.heard[0].back();
     }
     EXPECT_EQ(after[0] > 0.0, speed > 1.0);
     EXPECT_NEAR(after[1], after[0], 1e-9 * std::abs(after[0])) << speed;
@@ -87,7 +87,7 @@ TEST(CertifiedTest, BowPumpsWhatSwingsInTimeWithTheSteps) {
     EXPECT_EQ(bowed.certificate.verdict, Verdict::kUnproven);
     most = std::max(most, bowed.times);
     b.scene.lias[1].scheme = Scheme::kAuto;
-    EXPECT_EQ(settle(b.scene, {kRate, 14}).scene.lias[1].scheme, Scheme::kGuarded);
+    EXPECT_EQ(settle(b.scene, {kRate, 14}).scene.lias[1].scheme, Scheme::kEnergyStable);
     b.scene.lias[0].damping = {1e-3 * kRate};
     EXPECT_EQ(settle(b.scene, {kRate, 14}).scene.lias[1].scheme, Scheme::kExplicit);
   }
@@ -113,10 +113,10 @@ TEST(CertifiedTest, TablesWhoseEndsDriveGiveForEver) {
   EXPECT_EQ(certify(sound.scene, {kRate, 14}).verdict, Verdict::kBounded);
 }
 
-/// A guard gives what its tank holds, and no more: down the slope of a table, half a joule.
-TEST(CertifiedTest, GuardedTablesGiveWhatTheyHadAtTheStart) {
+/// A tank gives what it holds, and no more: down the slope of a table, half a joule.
+TEST(CertifiedTest, EnergyStableTablesGiveWhatTheyHadAtTheStart) {
   SceneBuilder b = onATable({{{-1.0, 1.0}, {1.0, -1.0}}}, {});
-  b.scene.lias[0].scheme = Scheme::kGuarded;
+  b.scene.lias[0].scheme = Scheme::kEnergyStable;
   EXPECT_EQ(certify(b.scene, {kRate, 14}).verdict, Verdict::kBounded) << "it falls";
   Player player(compile(b.scene, {kRate, 14}, Precision::kDouble));
   Energies energies = player.instrument->makeEnergies();
@@ -148,11 +148,12 @@ TEST(CertifiedTest, WhatSnapsFeedsEnergyIn) {
     lia.law.edit().release = 1e-2;
     SCOPED_TRACE(static_cast<int>(snap.type));
     expectRefused(b, 14, 20.0, snap.times);
-    b.scene.lias[1].scheme = Scheme::kGuarded;
-    const Grown guarded = grown(b, 14, 20.0, Precision::kDouble);
+    b.scene.lias[1].scheme = Scheme::kEnergyStable;
+    const Grown energy_stable = grown(b, 14, 20.0, Precision::kDouble);
     // It falls into a well once, and no deeper at any later pass.
-    EXPECT_LT(guarded.times, 1.0 + 3.5 * kRate * kRate * snap.width * snap.width / (6.0 * 6.0));
-    EXPECT_EQ(guarded.certificate.verdict, Verdict::kBounded);
+    EXPECT_LT(energy_stable.times,
+              1.0 + 3.5 * kRate * kRate * snap.width * snap.width / (6.0 * 6.0));
+    EXPECT_EQ(energy_stable.certificate.verdict, Verdict::kBounded);
     b.scene.lias[1].scheme = Scheme::kExplicit;
     // Where all that it reaches loses energy, what it gives is bounded, as its force is.
     b.scene.lias[0].damping = {10.0};
@@ -193,9 +194,9 @@ TEST(CertifiedTest, EigenvaluesThatCannotBeWorkedOutAreNone) {
   }
 }
 
-/// What loses energy, by a damper to the ground, and snaps: bounded. Not so if a guarded contact
-/// hands what it is given on to a mass that loses nothing.
-TEST(CertifiedTest, GuardedLinksHandOnWhatSnapsGive) {
+/// What loses energy, by a damper to the ground, and snaps: bounded. Not so if an energy-stable
+/// contact hands what it is given on to a mass that loses nothing.
+TEST(CertifiedTest, EnergyStableLinksHandOnWhatSnapsGive) {
   SceneBuilder b;
   const int mass = b.mass(1.0);
   b.spring(mass, b.ground(), 1e-5 * kRate * kRate, 10.0);
@@ -205,7 +206,7 @@ TEST(CertifiedTest, GuardedLinksHandOnWhatSnapsGive) {
   EXPECT_EQ(certify(b.scene, {kRate, 14}).verdict, Verdict::kBounded);
   const int cell = b.cell(1.0, 0.0, 1.0);
   b.link(LiaType::kContact, mass, cell, 1e3);
-  b.scene.lias.back().scheme = Scheme::kGuarded;
+  b.scene.lias.back().scheme = Scheme::kEnergyStable;
   EXPECT_EQ(certify(b.scene, {kRate, 14}).verdict, Verdict::kBounded);
   b.scene.parameters.push_back({"loss", 1.0, 0.0, 1.0, {}});
   b.scene.mats[at(cell)].damping = {1.0, 0};

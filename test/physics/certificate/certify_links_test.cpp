@@ -19,10 +19,10 @@ TEST(CertifyLinksTest, NothingNonlinearIsProvenBesideACoupledSlowMass) {
     lia.law.edit().width = {type == LiaType::kContact ? 0.0 : 1.0};
     return certify(b.scene, {kRate, 14}).verdict;
   };
-  for (const auto scheme : {scene::Scheme::kExplicit, scene::Scheme::kGuarded}) {
+  for (const auto scheme : {scene::Scheme::kExplicit, scene::Scheme::kEnergyStable}) {
     EXPECT_EQ(verdict(LiaType::kContact, scheme, false), Verdict::kUnproven);
     EXPECT_EQ(verdict(LiaType::kContact, scheme, true),
-              scheme == scene::Scheme::kGuarded ? Verdict::kPassive : Verdict::kUnproven);
+              scheme == scene::Scheme::kEnergyStable ? Verdict::kPassive : Verdict::kUnproven);
     EXPECT_EQ(verdict(LiaType::kBow, scheme, false), Verdict::kUnproven);
     EXPECT_EQ(verdict(LiaType::kBow, scheme, true), Verdict::kBounded);
   }
@@ -30,7 +30,7 @@ TEST(CertifyLinksTest, NothingNonlinearIsProvenBesideACoupledSlowMass) {
   EXPECT_EQ(verdict(LiaType::kSpringDamper, scene::Scheme::kExplicit, false), Verdict::kPassive);
 }
 
-TEST(CertifyLinksTest, LinesThatTurnAreProvenOnlyWithoutRestLengthOrGuarded) {
+TEST(CertifyLinksTest, LinesThatTurnAreProvenOnlyWithoutRestLengthOrEnergyStable) {
   const auto verdict = [](double rest_length, scene::Scheme scheme) {
     SceneBuilder b;
     b.scene.sections[0].geometry = scene::Geometry::kPlane;
@@ -43,7 +43,7 @@ TEST(CertifyLinksTest, LinesThatTurnAreProvenOnlyWithoutRestLengthOrGuarded) {
   EXPECT_EQ(verdict(0.1, scene::Scheme::kExplicit).verdict, Verdict::kUnproven);
   EXPECT_THAT(verdict(0.1, scene::Scheme::kExplicit).findings,
               Contains(HasSubstr("where its direction turns")));
-  EXPECT_EQ(verdict(0.1, scene::Scheme::kGuarded).verdict, Verdict::kPassive);
+  EXPECT_EQ(verdict(0.1, scene::Scheme::kEnergyStable).verdict, Verdict::kPassive);
 }
 
 /// However soft and damped: what swings in time with the steps is pumped all the same.
@@ -144,7 +144,7 @@ TEST(CertifyLinksTest, WhatNoBoundCoversIsUnproven) {
   }
 }
 
-TEST(CertifyLinksTest, GuardedLinksMakeNoEnergy) {
+TEST(CertifyLinksTest, EnergyStableLinksMakeNoEnergy) {
   const auto verdict = [](LiaType type, int section, scene::Scheme scheme) {
     SceneBuilder b;
     const int mass = b.mass(1.0, 0.0, 0.0, section);
@@ -156,18 +156,18 @@ TEST(CertifyLinksTest, GuardedLinksMakeNoEnergy) {
     lia.damping = {type == LiaType::kBow ? 50.0 * kRate : 0.0};
     return certify(b.scene, {kRate, 14}).verdict;
   };
-  const auto guarded = scene::Scheme::kGuarded;
-  EXPECT_EQ(verdict(LiaType::kPowerContact, 0, guarded), Verdict::kPassive);
-  EXPECT_EQ(verdict(LiaType::kContact, 0, guarded), Verdict::kPassive);
-  EXPECT_EQ(verdict(LiaType::kBow, 0, guarded), Verdict::kBounded);
-  EXPECT_EQ(verdict(LiaType::kContact, SceneBuilder::kGestural, guarded), Verdict::kUnproven);
+  const auto energy_stable = scene::Scheme::kEnergyStable;
+  EXPECT_EQ(verdict(LiaType::kPowerContact, 0, energy_stable), Verdict::kPassive);
+  EXPECT_EQ(verdict(LiaType::kContact, 0, energy_stable), Verdict::kPassive);
+  EXPECT_EQ(verdict(LiaType::kBow, 0, energy_stable), Verdict::kBounded);
+  EXPECT_EQ(verdict(LiaType::kContact, SceneBuilder::kGestural, energy_stable), Verdict::kUnproven);
   EXPECT_EQ(verdict(LiaType::kPowerContact, 0, scene::Scheme::kExplicit), Verdict::kUnproven);
   EXPECT_EQ(verdict(LiaType::kContact, 0, scene::Scheme::kExplicit), Verdict::kUnproven);
 }
 
-/// Forces move neither end: a guard has nothing to hold back, and the hand is given energy for
+/// Forces move neither end: a tank has nothing to hold back, and the hand is given energy for
 /// ever.
-TEST(CertifyLinksTest, GuardedTablesBesideAHandGiveAsTheExplicitOnes) {
+TEST(CertifyLinksTest, EnergyStableTablesBesideAHandGiveAsTheExplicitOnes) {
   const auto verdict = [](double last, Scheme scheme) {
     SceneBuilder b;
     Lia& lia = b.scene.lias[at(b.link(LiaType::kTable, b.slice(0), b.ground(), 0.0))];
@@ -175,7 +175,7 @@ TEST(CertifyLinksTest, GuardedTablesBesideAHandGiveAsTheExplicitOnes) {
     lia.scheme = scheme;
     return certify(b.scene, {kRate, 14}).verdict;
   };
-  for (const Scheme scheme : {Scheme::kExplicit, Scheme::kGuarded}) {
+  for (const Scheme scheme : {Scheme::kExplicit, Scheme::kEnergyStable}) {
     EXPECT_EQ(verdict(-1.0, scheme), Verdict::kUnproven);
     EXPECT_EQ(verdict(0.0, scheme), Verdict::kBounded);
     EXPECT_EQ(verdict(1.0, scheme), Verdict::kPassive);

@@ -188,20 +188,20 @@ scene::Scene withLaw(const AttachedMass& attached, LiaType type, Scheme scheme) 
   return scene;
 }
 
-TEST(FreeSlicesTest, AGuardedSpringGrowsAsItIsForetold) {
+TEST(FreeSlicesTest, AEnergyStableSpringGrowsAsItIsForetold) {
   for (const bool is_fast : {false, true}) {
     AttachedMass attached;
     attached.is_fast = is_fast;
-    const scene::Scene scene = withLaw(attached, LiaType::kCubic, Scheme::kGuarded);
+    const scene::Scene scene = withLaw(attached, LiaType::kCubic, Scheme::kEnergyStable);
     EXPECT_GT(playedGrowth(scene, {}), 1.0 + 1e-5);
     EXPECT_NEAR(radiusOf(scene), playedGrowth(scene, {}), 2e-5);
   }
 }
 
 /// Nearly linear and soft for a step, it does not look ahead.
-TEST(FreeSlicesTest, ASoftGuardedSpringIsTheExplicitOne) {
+TEST(FreeSlicesTest, ASoftEnergyStableSpringIsTheExplicitOne) {
   const AttachedMass attached{2090.0, 0.0, 0.00330378479, 0.0103722453};
-  scene::Scene scene = withLaw(attached, LiaType::kCubic, Scheme::kGuarded);
+  scene::Scene scene = withLaw(attached, LiaType::kCubic, Scheme::kEnergyStable);
   scene.lias.at(0).law.edit().nonlinearity = {1e-6};
   const double growth = playedGrowth(scene, {}, 20000);
   EXPECT_GT(growth, 1.0 + 0.01 * kTick);
@@ -209,9 +209,9 @@ TEST(FreeSlicesTest, ASoftGuardedSpringIsTheExplicitOne) {
 }
 
 /// Its damper sees half of the steps of a slice whose next place it does not know.
-TEST(FreeSlicesTest, AGuardedDamperBrakesASliceLess) {
+TEST(FreeSlicesTest, AEnergyStableDamperBrakesASliceLess) {
   const AttachedMass attached{6500.0, 1.6, 0.7, 0.05, true};
-  const scene::Scene scene = withLaw(attached, LiaType::kCubic, Scheme::kGuarded);
+  const scene::Scene scene = withLaw(attached, LiaType::kCubic, Scheme::kEnergyStable);
   EXPECT_EQ(radiusOf(attached.scene()), 1.0);
   EXPECT_GT(playedGrowth(scene, {}, 20000), 1.0 + 1e-5);
   EXPECT_GT(radiusOf(scene), playedGrowth(scene, {}, 20000));
@@ -221,9 +221,9 @@ TEST(FreeSlicesTest, LinksThatAreNotLinearAreSeenAsTheSpringsThatTheyMayBe) {
   const struct {
     LiaType type;
     Scheme scheme;
-  } laws[] = {{LiaType::kCubic, Scheme::kGuarded},  {LiaType::kCubic, Scheme::kExplicit},
-              {LiaType::kTable, Scheme::kGuarded},  {LiaType::kContact, Scheme::kGuarded},
-              {LiaType::kPluck, Scheme::kExplicit}, {LiaType::kConditional, Scheme::kExplicit}};
+  } laws[] = {{LiaType::kCubic, Scheme::kEnergyStable}, {LiaType::kCubic, Scheme::kExplicit},
+              {LiaType::kTable, Scheme::kEnergyStable}, {LiaType::kContact, Scheme::kEnergyStable},
+              {LiaType::kPluck, Scheme::kExplicit},     {LiaType::kConditional, Scheme::kExplicit}};
   for (const auto& law : laws) {
     const auto level = [&](const AttachedMass& attached) {
       return certify(withLaw(attached, law.type, law.scheme), kRates).ports.at(0).level;
@@ -240,7 +240,7 @@ TEST(FreeSlicesTest, ALawThatGrowsIsSeenAsItIsAtAMillimetre) {
   AttachedMass attached;
   for (const double pressed : {0.0, 3e-3}) {
     attached.stiffness = 2000.0 / (1.5 * std::sqrt(pressed + 1e-3));
-    scene::Scene scene = withLaw(attached, LiaType::kPowerContact, Scheme::kGuarded);
+    scene::Scene scene = withLaw(attached, LiaType::kPowerContact, Scheme::kEnergyStable);
     scene.lias.at(0).law.edit().width = {0.01 + pressed};
     scene.mats.at(0).position.x() = -0.01;
     EXPECT_NEAR(radiusOf(scene), radiusOf(AttachedMass{}.scene()), 1e-6);
@@ -250,7 +250,8 @@ TEST(FreeSlicesTest, ALawThatGrowsIsSeenAsItIsAtAMillimetre) {
 }
 
 TEST(FreeSlicesTest, ASpringThatIsStretchedIsSeenAsItIsThere) {
-  scene::Scene scene = withLaw(AttachedMass{45.0, 0.0, 8.0}, LiaType::kCubic, Scheme::kGuarded);
+  scene::Scene scene =
+      withLaw(AttachedMass{45.0, 0.0, 8.0}, LiaType::kCubic, Scheme::kEnergyStable);
   scene.lias.at(0).law.edit().nonlinearity = {6e6};
   scene.lias.pop_back();
   EXPECT_LT(certify(scene, kRates).ports.at(0).stiffness, 100.0);
@@ -262,7 +263,8 @@ TEST(FreeSlicesTest, ASpringThatIsStretchedIsSeenAsItIsThere) {
 
 /// A millimetre of the hand is ten of the model.
 TEST(FreeSlicesTest, ALawThatGrowsIsSeenAsFarAsHandsMove) {
-  scene::Scene scene = withLaw(AttachedMass{0.0, 0.0, 100.0}, LiaType::kCubic, Scheme::kGuarded);
+  scene::Scene scene =
+      withLaw(AttachedMass{0.0, 0.0, 100.0}, LiaType::kCubic, Scheme::kEnergyStable);
   scene.lias.at(0).law.edit().nonlinearity = {1e6};
   scene.lias.pop_back();
   scene.ports.at(0).position_scale = 0.1;
@@ -277,14 +279,14 @@ TEST(FreeSlicesTest, ContactsBehindAMassHideNothing) {
   b.scene = attached.scene();
   const int far = b.mass(0.1, 0.0);
   b.link(LiaType::kTable, 0, far, 0.0);
-  b.scene.lias.back().scheme = Scheme::kGuarded;
+  b.scene.lias.back().scheme = Scheme::kEnergyStable;
   b.scene.lias.back().law.edit().table.points = {{-10.0, -4e5}, {10.0, 4e5}};
   EXPECT_GT(playedGrowth(b.scene, {}, 20000), 1.0 + 1e-5);
   EXPECT_GT(radiusOf(b.scene), 1.0 + 1e-5);
   const int wall = b.ground();
   for (int i = 0; i < 3; ++i) {
     b.link(LiaType::kContact, wall, far, 1e10);
-    b.scene.lias.back().scheme = Scheme::kGuarded;
+    b.scene.lias.back().scheme = Scheme::kEnergyStable;
     b.scene.lias.back().law.edit().width = {-100.0};
   }
   EXPECT_GT(radiusOf(b.scene), 1.0 + 1e-5);
@@ -296,7 +298,7 @@ TEST(FreeSlicesTest, LinksBehindAMassAreSeenOpenAndClosed) {
   const int hung = b.mass(1e-3, 0.0, 0.0, SceneBuilder::kGestural);
   b.spring(hung, b.slice(0), 2000.0);
   b.link(LiaType::kTable, hung, b.mass(0.1, 0.0, 0.0, SceneBuilder::kGestural), 0.0);
-  b.scene.lias.back().scheme = Scheme::kGuarded;
+  b.scene.lias.back().scheme = Scheme::kEnergyStable;
   b.scene.lias.back().law.edit().table.points = {{-0.1, -2e4}, {0.1, 2e4}};
   EXPECT_GT(playedGrowth(b.scene, {}), 1.0 + 1e-5);
   EXPECT_GT(radiusOf(b.scene), 1.0 + 1e-5);
@@ -308,16 +310,16 @@ TEST(FreeSlicesTest, AStiffContactIsSeenAsTheSoftOneThatItIsOnTheWay) {
   AttachedMass soft = steep;
   soft.stiffness *= 0.25;
   ASSERT_GT(radiusOf(soft.scene()), radiusOf(steep.scene()) + 1e-6);
-  EXPECT_NEAR(radiusOf(withLaw(steep, LiaType::kContact, Scheme::kGuarded)), radiusOf(soft.scene()),
-              3e-5);
+  EXPECT_NEAR(radiusOf(withLaw(steep, LiaType::kContact, Scheme::kEnergyStable)),
+              radiusOf(soft.scene()), 3e-5);
 }
 
-TEST(FreeSlicesTest, GuardedWallsAreNoAlarm) {
+TEST(FreeSlicesTest, EnergyStableWallsAreNoAlarm) {
   const auto findings = [](double mass, double stiffness, double loss) {
     SceneBuilder b;
     const int hung = b.mass(mass, 0.0);
     b.link(LiaType::kContact, b.slice(0), hung, stiffness);
-    b.scene.lias.back().scheme = Scheme::kGuarded;
+    b.scene.lias.back().scheme = Scheme::kEnergyStable;
     b.spring(hung, b.ground(), 1000.0, loss);
     return certify(b.scene, kRates).findings;
   };
@@ -332,7 +334,7 @@ TEST(FreeSlicesTest, WhatOnlyGuardsBearTellsNothingOfTheSlice) {
   const int hung = b.mass(1e-5, 0.0);
   for (int i = 0; i < 2; ++i) {
     b.link(LiaType::kContact, slice, hung, 1e6);
-    b.scene.lias.back().scheme = Scheme::kGuarded;
+    b.scene.lias.back().scheme = Scheme::kEnergyStable;
   }
   b.spring(hung, b.ground(), 1000.0, 0.01);
   EXPECT_EQ(radiusOf(b.scene), 1.0);

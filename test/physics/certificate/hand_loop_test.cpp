@@ -186,13 +186,13 @@ double speedAfterAPush(const scene::Scene& scene) {
   return std::abs(v);
 }
 
-/// A guard holds back what forces move. Between a slice and a ground there is nothing of that.
+/// A tank holds back what forces move. Between a slice and a ground there is nothing of that.
 TEST(DrivenHandTest, NoGuardHoldsALinkThatDrivesAHandOnAGround) {
   const auto joined = [](LiaType type, double nonlinearity, bool is_mass) {
     SceneBuilder b;
     const int slice = b.slice(0);
     b.link(type, slice, is_mass ? b.mass(1.0, 0.0) : b.ground(), 100.0);
-    b.scene.lias[0].scheme = Scheme::kGuarded;
+    b.scene.lias[0].scheme = Scheme::kEnergyStable;
     b.scene.lias[0].law.edit().nonlinearity = {nonlinearity};
     b.scene.lias[0].law.edit().table.points = {{-0.01, 10.0}, {0.01, -10.0}};
     return b.scene;

@@ -317,9 +317,10 @@ void addLimits(Cases& cases) {
                    [=](Precision precision) {
                      return play(net(9, 0.4, 0.9), {kRate, 1}, 20000, precision, Closed::kNo);
                    }});
-  cases.push_back({thrown, "energy_stable", true, "passive", "", [=](Precision precision) {
-                     return play(net(9, 0.4, 0.9, Scheme::kGuarded), {kRate, 1}, 20000, precision);
-                   }});
+  cases.push_back(
+      {thrown, "energy_stable", true, "passive", "", [=](Precision precision) {
+         return play(net(9, 0.4, 0.9, Scheme::kEnergyStable), {kRate, 1}, 20000, precision);
+       }});
 }
 
 void addRates(Cases& cases) {

@@ -59,17 +59,17 @@ TEST(TapCertificateTest, BoundBesideAPointThatMovesHoldsWeightsOfAnySize) {
 
 /// Friction at a lever rubs what the lever is worth.
 TEST(TapCertificateTest, FrictionRubsTheMassOfTheTap) {
-  const auto isGuarded = [](double lever) {
+  const auto isEnergyStable = [](double lever) {
     SceneBuilder b;
     const int m = b.mass(1e-3);
     b.spring(m, b.ground(), 100.0, 0.01);
     b.link(LiaType::kSmoothBow, b.tap({{m, lever}}), b.ground(), 0.0, 0.1 * 1e-3 * kRate);
     b.scene.lias.back().law.edit().width = {0.1};
     b.scene.lias.back().scheme = Scheme::kAuto;
-    return settle(b.scene, kTapRates).scene.lias.back().scheme == Scheme::kGuarded;
+    return settle(b.scene, kTapRates).scene.lias.back().scheme == Scheme::kEnergyStable;
   };
-  EXPECT_FALSE(isGuarded(1.0));
-  EXPECT_TRUE(isGuarded(10.0));
+  EXPECT_FALSE(isEnergyStable(1.0));
+  EXPECT_TRUE(isEnergyStable(10.0));
 }
 
 /// A table gives to all that its tap moves: one mass that loses nothing is enough.

@@ -49,8 +49,8 @@ struct StepCase {
 };
 
 /// Along its axis, and along no other. In space a hand without a damper is explicit, as in scalar
-/// sections; one with a damper is guarded, whose poles are another scheme's: within 0.5 % of the
-/// step.
+/// sections; one with a damper is energy-stable, whose poles are another scheme's: within 0.5 % of
+/// the step.
 TEST(AgentsTest, AStepPullsAMassAsThePolesOfTheSchemeSay) {
   for (const auto& [axis, damping, tolerance] :
        {StepCase{'x', 1.5, 2e-9}, StepCase{'y', 0.0, 2e-9}, StepCase{'y', 1.5, 1e-4}}) {

@@ -44,7 +44,7 @@ TEST_P(CouplingTest, GesturalMassOnAnAudioRateSpringMovesAsIfAllWereGestural) {
   }
 }
 
-/// Positions of a gestural mass that a spring pulls onto a hard guarded contact.
+/// Positions of a gestural mass that a spring pulls onto a hard energy-stable contact.
 std::vector<double> playBouncingMass(int ratio, int spring_section, int ticks) {
   SceneBuilder b;
   const double m = 0.1;
@@ -53,12 +53,12 @@ std::vector<double> playBouncingMass(int ratio, int spring_section, int ticks) {
   b.spring(mass, b.ground(-1e-3, spring_section), 0.05 * unit);
   const int wall = b.ground(0.0, SceneBuilder::kGestural);
   const int contact = b.link(scene::LiaType::kContact, wall, mass, 3.0 * unit);
-  b.scene.lias[at(contact)].scheme = scene::Scheme::kGuarded;
+  b.scene.lias[at(contact)].scheme = scene::Scheme::kEnergyStable;
   b.hear(mass);
   return startsOfTicks(b, ratio, ticks);
 }
 
-TEST_P(CouplingTest, GuardedContactOfAGesturalMassKnowsTheForcesOfFasterSections) {
+TEST_P(CouplingTest, EnergyStableContactOfAGesturalMassKnowsTheForcesOfFasterSections) {
   const int ticks = 500;
   const auto slow = playBouncingMass(GetParam(), SceneBuilder::kGestural, ticks);
   const auto mixed = playBouncingMass(GetParam(), SceneBuilder::kAudio, ticks);

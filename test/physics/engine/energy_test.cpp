@@ -71,15 +71,15 @@ void holdAlongAllAxes(SceneBuilder& b) {
   }
 }
 
-/// The same with a link inside the string that is guarded.
-SceneBuilder guardedString(LiaType type, Geometry geometry = Geometry::kScalar) {
+/// The same with a link inside the string that is energy-stable.
+SceneBuilder energyStableString(LiaType type, Geometry geometry = Geometry::kScalar) {
   SceneBuilder b = stringAndHand(LiaType::kSpringDamper, geometry);
   for (const auto& [x, y] : {std::pair(4, 12), {10, 12}, {12, 20}}) {
     Lia& lia = b.scene.lias[at(b.link(type, x, y, 200.0, 0.0))];
     shape(lia);
     lia.damping =
         type == LiaType::kBow || type == LiaType::kSmoothBow ? scene::Value{0.1} : scene::Value{};
-    lia.scheme = Scheme::kGuarded;
+    lia.scheme = Scheme::kEnergyStable;
   }
   return b;
 }
@@ -102,10 +102,10 @@ TEST_P(EnergyTest, EveryLawBalancesAcrossRates) {
   }
 }
 
-TEST_P(EnergyTest, EveryGuardedLawBalances) {
+TEST_P(EnergyTest, EveryEnergyStableLawBalances) {
   for (const LiaType type : kAllTypes) {
-    const SceneBuilder b = guardedString(type);
-    if (scene::isGuardable(b.scene, b.scene.lias.back())) {
+    const SceneBuilder b = energyStableString(type);
+    if (scene::canBeEnergyStable(b.scene, b.scene.lias.back())) {
       EXPECT_LT(imbalance(b.scene, {kRate, GetParam()}, 3000), kUnbalanced)
           << "type " << static_cast<int>(type);
     }
@@ -130,8 +130,8 @@ TEST_P(EnergyTest, TablesOfPluckBowAndViscosityBalance) {
 TEST_P(EnergyTest, EveryGeometryBalancesWithEveryOther) {
   for (const Geometry geometry : {Geometry::kLine, Geometry::kPlane, Geometry::kSpace}) {
     for (const LiaType type : {LiaType::kSpringDamper, LiaType::kCubic, LiaType::kSmoothBow}) {
-      SceneBuilder b =
-          type == LiaType::kCubic ? guardedString(type, geometry) : stringAndHand(type, geometry);
+      SceneBuilder b = type == LiaType::kCubic ? energyStableString(type, geometry)
+                                               : stringAndHand(type, geometry);
       holdAlongAllAxes(b);
       b.scene.sections[0].medium = {1e-4};
       EXPECT_LT(imbalance(b.scene, {kRate, GetParam()}, 2000), kUnbalanced)
@@ -147,7 +147,7 @@ TEST_P(EnergyTest, EveryGeometryBalancesWithEveryOther) {
 /// A point of the string that the hand pushes along, with one spring to the ground, one to the
 /// hand.
 TEST_P(EnergyTest, MovingPlaceBalances) {
-  for (const bool is_guarded : {false, true}) {
+  for (const bool is_energy_stable : {false, true}) {
     SceneBuilder b;
     const int first = b.chain(30, 1e-3, 1000.0, 0.01);
     b.scene.mats[at(first + 7)].position.x() = 1e-3;
@@ -159,12 +159,12 @@ TEST_P(EnergyTest, MovingPlaceBalances) {
     place.along.maximum = 0.9;
     b.spring(b.ground(), finger, 300.0, 0.1);
     b.spring(hand, finger, 30.0, 0.1);
-    if (is_guarded) {
+    if (is_energy_stable) {
       Lia& lia = b.scene.lias[at(b.link(LiaType::kCubic, b.ground(), finger, 300.0))];
       lia.law.edit().nonlinearity = {1e7};
-      lia.scheme = Scheme::kGuarded;
+      lia.scheme = Scheme::kEnergyStable;
     }
-    EXPECT_LT(imbalance(b.scene, {kRate, GetParam()}, 5000), kUnbalanced) << is_guarded;
+    EXPECT_LT(imbalance(b.scene, {kRate, GetParam()}, 5000), kUnbalanced) << is_energy_stable;
   }
 }
 
@@ -192,10 +192,10 @@ TEST(EnergyOfContactsTest, HoldAtTheStartWhatTheyGive) {
   EXPECT_NEAR(energiesOf(player).sections[0].kinetic, start, 0.01 * start);
 }
 
-/// Sections at every 28th frame and at every second one beside the tick of 14: guarded links of a
-/// slow section are read in the middle of its step.
+/// Sections at every 28th frame and at every second one beside the tick of 14: energy-stable links
+/// of a slow section are read in the middle of its step.
 TEST(EnergyOfManyRatesTest, Balances) {
-  for (const Scheme scheme : {Scheme::kExplicit, Scheme::kGuarded}) {
+  for (const Scheme scheme : {Scheme::kExplicit, Scheme::kEnergyStable}) {
     SceneBuilder b = stringAndHand(LiaType::kSpringDamper);
     scene::Section slower = b.scene.sections[0];
     slower.name = "slower";
@@ -211,12 +211,13 @@ TEST(EnergyOfManyRatesTest, Balances) {
       lia.law.edit().nonlinearity = {1e10};
       lia.scheme = scheme;
     }
-    EXPECT_LT(imbalance(b.scene, {kRate, 14}, 6000), kUnbalanced) << (scheme == Scheme::kGuarded);
+    EXPECT_LT(imbalance(b.scene, {kRate, 14}, 6000), kUnbalanced)
+        << (scheme == Scheme::kEnergyStable);
   }
 }
 
 TEST(EnergyOfManyStepsTest, AllKindsBalanceOverAMillion) {
-  SceneBuilder b = guardedString(LiaType::kContact);
+  SceneBuilder b = energyStableString(LiaType::kContact);
   for (const auto& [type, x, y] : {std::tuple(LiaType::kPowerContact, 6, 22),
                                    {LiaType::kCubic, 8, 24},
                                    {LiaType::kSmoothBow, 14, 28}}) {
@@ -231,8 +232,8 @@ TEST(EnergyOfManyStepsTest, AllKindsBalanceOverAMillion) {
   EXPECT_LT(imbalance(b.scene, {kRate, ratio}, 1'000'000 / ratio + 1), kUnbalanced);
 }
 
-/// Every law, explicit and guarded where it can be, a matched cell and a third rate; nothing moves
-/// it from outside.
+/// Every law, explicit and energy-stable where it can be, a matched cell and a third rate; nothing
+/// moves it from outside.
 scene::Scene closedNetwork(Geometry geometry) {
   SceneBuilder b = stringAndHand(LiaType::kSpringDamper, geometry);
   for (scene::Mat& mat : b.scene.mats) {
@@ -241,12 +242,13 @@ scene::Scene closedNetwork(Geometry geometry) {
   b.scene.ports.clear();
   int low = 2;
   for (const LiaType type : kAllTypes) {
-    for (const bool is_guarded : {false, true}) {
+    for (const bool is_energy_stable : {false, true}) {
       Lia& lia = b.scene.lias[at(b.link(type, low, low + 3, 100.0))];
       shape(lia);
-      lia.damping = {is_guarded ? 0.0 : 1e-3};
-      lia.scheme =
-          is_guarded && scene::isGuardable(b.scene, lia) ? Scheme::kGuarded : Scheme::kExplicit;
+      lia.damping = {is_energy_stable ? 0.0 : 1e-3};
+      lia.scheme = is_energy_stable && scene::canBeEnergyStable(b.scene, lia)
+                       ? Scheme::kEnergyStable
+                       : Scheme::kExplicit;
     }
     low += 2;
   }

@@ -83,8 +83,8 @@ Rebound bounce(const FeltImpact& impact, double phase, Scheme scheme) {
   return {(out + start / d) / kRate, speed};
 }
 
-/// From 1 ms on, and the longer the more of it is lost, a guarded impact is that of the law.
-TEST(FeltTest, GuardedImpactsLastAndReboundAsTheyShould) {
+/// From 1 ms on, and the longer the more of it is lost, an energy-stable impact is that of the law.
+TEST(FeltTest, EnergyStableImpactsLastAndReboundAsTheyShould) {
   for (const double exponent : {1.0, 1.5, 2.3, 3.0}) {
     for (const auto& [loss, duration] :
          {std::pair(0.0, 1e-3), {0.1, 1e-3}, {0.3, 1e-3}, {0.8, 2e-3}, {3.0, 5e-3}}) {
@@ -92,7 +92,7 @@ TEST(FeltTest, GuardedImpactsLastAndReboundAsTheyShould) {
       const Rebound law = integrate(impact);
       EXPECT_NEAR(law.speed, impact.speed * scene::feltRestitution(loss), 1e-8);
       for (int k = 0; k < 8; ++k) {
-        const Rebound played = bounce(impact, k / 8.0, Scheme::kGuarded);
+        const Rebound played = bounce(impact, k / 8.0, Scheme::kEnergyStable);
         EXPECT_NEAR(played.time, law.time, 1e-5 * law.time) << exponent << " " << loss;
         EXPECT_NEAR(played.speed, law.speed, 1e-5 * law.speed) << exponent << " " << loss;
       }
@@ -109,11 +109,11 @@ TEST(FeltTest, ExplicitImpactsAreNearTheLaw) {
 }
 
 /// Impacts that are over within two steps lose what the law says of their speed.
-TEST(FeltTest, ShortGuardedImpactsReboundByTheirRestitution) {
+TEST(FeltTest, ShortEnergyStableImpactsReboundByTheirRestitution) {
   for (const double loss : {0.1, 1.0, 5.0}) {
     for (int k = 0; k < 8; ++k) {
       const FeltImpact impact{1.5, loss, 5e-6};
-      const double ratio = bounce(impact, k / 8.0, Scheme::kGuarded).speed / impact.speed;
+      const double ratio = bounce(impact, k / 8.0, Scheme::kEnergyStable).speed / impact.speed;
       EXPECT_GE(ratio, scene::feltRestitution(loss) - 0.01) << loss << " " << k;
       EXPECT_LE(ratio, 1.0 + 1e-12) << loss << " " << k;
     }
@@ -170,7 +170,7 @@ struct Hostile : SceneBuilder {
       for (int b = a + 1; b < kBalls; ++b) {
         const double k = std::pow(10.0, between(-4.0, 8.0)) * kRate * kRate;
         Lia& lia = felt(*this, a, b, k, between(1.0, 5.0),
-                        std::pow(10.0, between(-3.0, 6.0)) / kRate, Scheme::kGuarded);
+                        std::pow(10.0, between(-3.0, 6.0)) / kRate, Scheme::kEnergyStable);
         lia.law.edit().width = {between(0.0, 1.0)};
       }
     }
@@ -178,7 +178,7 @@ struct Hostile : SceneBuilder {
   static constexpr int kBalls = 4;
 };
 
-TEST(FeltTest, GuardedItNeverPullsNorMakesEnergyNorMomentum) {
+TEST(FeltTest, EnergyStableItNeverPullsNorMakesEnergyNorMomentum) {
   std::mt19937 random(7);
   for (int trial = 0; trial < 300; ++trial) {
     const Geometry geometry =
@@ -188,13 +188,13 @@ TEST(FeltTest, GuardedItNeverPullsNorMakesEnergyNorMomentum) {
     player.tick();
     double energy = std::numeric_limits<double>::infinity();
     for (int n = 1; n < 500; ++n) {
-      const std::vector<GuardedState<double>> guards = test::guardsOf(player);
-      for (const GuardedState<double>& guard : guards) {
-        ASSERT_GE(guard.force + guard.damper, 0.0) << trial << " " << n;
-        ASSERT_GE(guard.tank, 0.0) << trial << " " << n;
+      const std::vector<EnergyStableState<double>> tanks = test::tankStatesOf(player);
+      for (const EnergyStableState<double>& tank : tanks) {
+        ASSERT_GE(tank.force + tank.damper, 0.0) << trial << " " << n;
+        ASSERT_GE(tank.tank, 0.0) << trial << " " << n;
       }
       player.tick();
-      const double now = test::energyBetweenSteps(player, guards);
+      const double now = test::energyBetweenSteps(player, tanks);
       ASSERT_LE(now, energy * (1.0 + 1e-12)) << trial << " " << n;
       energy = now;
     }
@@ -226,7 +226,7 @@ double momentumKept(Geometry first, Geometry second, Scheme scheme) {
 }
 
 TEST(FeltTest, MomentumIsKeptInEveryGeometryAndBetweenThem) {
-  for (const Scheme scheme : {Scheme::kExplicit, Scheme::kGuarded}) {
+  for (const Scheme scheme : {Scheme::kExplicit, Scheme::kEnergyStable}) {
     for (const auto& [first, second] : {std::pair(Geometry::kScalar, Geometry::kScalar),
                                         {Geometry::kLine, Geometry::kLine},
                                         {Geometry::kPlane, Geometry::kPlane},
@@ -248,7 +248,7 @@ TEST(FeltTest, ItsNumbersMayMoveWhileItPlays) {
   }
   b.scene.sections[0].gravity.x() = 50.0;
   const int ball = b.mass(1e-2, -1e-3, 0.5);
-  Lia& lia = felt(b, ball, b.ground(), 0.0, 1.0, 0.0, Scheme::kGuarded);
+  Lia& lia = felt(b, ball, b.ground(), 0.0, 1.0, 0.0, Scheme::kEnergyStable);
   lia.stiffness = {1e6, 0};
   lia.law.edit().exponent = {1.0, 1};
   lia.damping = {1.0, 2};
@@ -295,18 +295,18 @@ TEST(FeltTest, CertificateLooksAtBothEndsOfItsRanges) {
   EXPECT_EQ((Certified{soft, 1.0, 0.01}.verdict(Scheme::kExplicit)), Verdict::kUnproven);
   EXPECT_EQ((Certified{5.0 * kRate * kRate, 1.0, 0.0}.verdict(Scheme::kExplicit)),
             Verdict::kUnproven);
-  EXPECT_EQ((Certified{5.0 * kRate * kRate, 5.0, 1e6}.verdict(Scheme::kGuarded)),
+  EXPECT_EQ((Certified{5.0 * kRate * kRate, 5.0, 1e6}.verdict(Scheme::kEnergyStable)),
             Verdict::kPassive);
 }
 
-/// At those ends a guarded ball under gravity comes to rest, and the verdict holds.
+/// At those ends an energy-stable ball under gravity comes to rest, and the verdict holds.
 TEST(FeltTest, WhatIsCertifiedHoldsAtBothEnds) {
   for (const double k : {1e3, 5.0 * kRate * kRate}) {
     for (const double exponent : {1.0, 5.0}) {
       for (const double c : {0.0, 1e3}) {
         SceneBuilder b;
         const int ball = b.mass(1.0, -1e-3, 1.0);
-        felt(b, ball, b.ground(), k, exponent, c, Scheme::kGuarded);
+        felt(b, ball, b.ground(), k, exponent, c, Scheme::kEnergyStable);
         Player player(b.scene, {kRate, 1});
         Energies e = player.instrument->makeEnergies();
         double most = 0.5;
@@ -320,15 +320,15 @@ TEST(FeltTest, WhatIsCertifiedHoldsAtBothEnds) {
   }
 }
 
-TEST(FeltTest, IsGuardedWhateverItLoses) {
+TEST(FeltTest, IsEnergyStableWhateverItLoses) {
   const auto scheme = [](double exponent, double c) {
     SceneBuilder b;
     felt(b, b.mass(1.0), b.ground(), 1e3, exponent, c, Scheme::kAuto);
     return settle(b.scene, {kRate, 14}).scene.lias[0].scheme;
   };
-  EXPECT_EQ(scheme(1.0, 0.0), Scheme::kGuarded);
-  EXPECT_EQ(scheme(1.5, 0.0), Scheme::kGuarded);
-  EXPECT_EQ(scheme(1.0, 0.1), Scheme::kGuarded);
+  EXPECT_EQ(scheme(1.0, 0.0), Scheme::kEnergyStable);
+  EXPECT_EQ(scheme(1.5, 0.0), Scheme::kEnergyStable);
+  EXPECT_EQ(scheme(1.0, 0.1), Scheme::kEnergyStable);
 }
 
 }  // namespace

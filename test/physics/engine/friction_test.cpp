@@ -71,8 +71,8 @@ sections: {a: {}}
 mats: {floor: {type: ground}, block: {type: mass, mass: 1}}
 lias: {rub: {type: friction, between: [block, floor], normal: 1, table: [[0, 1], [1, 0], [2, 0]]}}
 )");
-  const auto law = GuardedLaw<double>::make(scene, scene.lias[0], {1.0});
-  GuardedState<double> state;
+  const auto law = EnergyStableLaw<double>::make(scene, scene.lias[0], {1.0});
+  EnergyStableState<double> state;
   state.phase = slipped ? 1.0 : 0.0;
   return exertDry({free, free, 2.0, 1.0, true}, 0.0, law, state);
 }
@@ -293,7 +293,7 @@ TEST(FrictionTest, GivesNoMoreThanItTookWhateverPresses) {
       }
       for (const int mass : {first + 2, first + 2, first + 3, first + 6}) {
         Lia& lia = b.scene.lias[at(b.link(LiaType::kFriction, mass, first, 0.0))];
-        lia.scheme = Scheme::kGuarded;
+        lia.scheme = Scheme::kEnergyStable;
         lia.law.edit().normal = {normal};
         lia.law.edit().steady = 0.3;
         lia.law.edit().falls = {{{0.9, 0.1}, {0.0, 1.0}}};

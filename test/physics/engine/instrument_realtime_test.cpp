@@ -26,7 +26,7 @@ class Playing {
         state_(instrument_->stateSize()),
         displacements_(at(instrument_->scene().coordinates())),
         energies_(instrument_->makeEnergies()),
-        guards_(instrument_->makeGuardReports()) {
+        tanks_(instrument_->makeTankReports()) {
     for (const scene::Parameter& parameter : instrument_->scene().parameters) {
       values_.push_back(parameter.value);
     }
@@ -63,7 +63,7 @@ class Playing {
     }
     instrument_->readDisplacements(displacements_.data());
     instrument_->readEnergies(energies_);
-    instrument_->readGuards(guards_);
+    instrument_->readTanks(tanks_);
   }
 
   const std::unique_ptr<Instrument> instrument_;
@@ -74,7 +74,7 @@ class Playing {
   std::vector<std::byte> state_;
   std::vector<float> displacements_;
   Energies energies_;
-  std::vector<GuardReport> guards_;
+  std::vector<TankReport> tanks_;
   std::vector<double> values_;
 };
 
@@ -98,9 +98,9 @@ lias:
   pluck: {type: pluck, between: [key, cell], table: [[-1e-3, 0], [0, 1], [1e-3, 0]], scheme: explicit}
   bow: {type: bow, between: [key, cell], table: [[-1, 0], [-0.1, -1], [0.1, 1], [1, 0]],
         scheme: explicit}
-  guarded_pluck: {type: pluck, between: [key, cell], table: [[-1e-3, 0], [0, 1], [1e-3, 0]],
+  energy_stable_pluck: {type: pluck, between: [key, cell], table: [[-1e-3, 0], [0, 1], [1e-3, 0]],
                   scheme: energy_stable}
-  guarded_bow: {type: bow, between: [key, cell], table: [[-1, 0], [-0.1, -1], [0.1, 1], [1, 0]],
+  energy_stable_bow: {type: bow, between: [key, cell], table: [[-1, 0], [-0.1, -1], [0.1, 1], [1, 0]],
                 scheme: energy_stable}
 ports: {key: {mat: key, slice: 0}}
 )";

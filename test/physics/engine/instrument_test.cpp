@@ -192,7 +192,7 @@ TEST(InstrumentTest, StateLoadedAgainPlaysTheSameBits) {
     Lia& lia = b.scene.lias[at(b.link(type, first + 3, first + 4, 1e5))];
     lia.law.edit().nonlinearity = {1e10};
     lia.law.edit().exponent = {1.5};
-    lia.scheme = Scheme::kGuarded;
+    lia.scheme = Scheme::kEnergyStable;
   }
   b.hear(first + 8);
   b.hear(first + 8, 1, Quantity::kVelocity);

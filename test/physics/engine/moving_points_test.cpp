@@ -115,11 +115,11 @@ TEST(MovingPointsTest, OscillatorThatLeadsAPlacePumpsNoMoreThanItMay) {
   EXPECT_EQ(certify(unlimited.scene, {kRate, 14}).verdict, Verdict::kUnproven);
 }
 
-TEST(MovingPointsTest, GuardedLinksBringNothing) {
+TEST(MovingPointsTest, EnergyStableLinksBringNothing) {
   Plucked b = frettedByHand(0.0);
   b.scene.lias.back().type = LiaType::kCubic;
   b.scene.lias.back().law.edit().nonlinearity = {1e10};
-  b.scene.lias.back().scheme = Scheme::kGuarded;
+  b.scene.lias.back().scheme = Scheme::kEnergyStable;
   EXPECT_EQ(certify(b.scene, {kRate, 14}).verdict, Verdict::kPassive);
   for (const Precision precision : {Precision::kFloat, Precision::kDouble}) {
     const Played played = play(b, 20.0, precision);

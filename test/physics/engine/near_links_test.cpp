@@ -50,7 +50,7 @@ class BallRow : public SceneBuilder {
   }
   void touch(int toucher, int other, double threshold) {
     scene::Lia& lia = scene.lias[at(link(LiaType::kContact, toucher, other, 50.0, 0.002))];
-    lia.scheme = scene::Scheme::kGuarded;
+    lia.scheme = scene::Scheme::kEnergyStable;
     lia.law.edit().width = {threshold};
   }
 
@@ -78,9 +78,9 @@ BallsPlayed playBalls(const BallRow& row, unsigned seed, Precision precision, bo
     played.forces.insert(played.forces.end(), player.forces.begin(), player.forces.end());
   }
   played.heard = player.heard;
-  std::vector<GuardReport> reports = player.instrument->makeGuardReports();
-  player.instrument->readGuards(reports);
-  for (const GuardReport& report : reports) {
+  std::vector<TankReport> reports = player.instrument->makeTankReports();
+  player.instrument->readTanks(reports);
+  for (const TankReport& report : reports) {
     played.active += report.active;
     played.touched += report.active > 0 ? 1 : 0;
   }
@@ -109,10 +109,10 @@ TEST(NearLinksTest, WhatIsPassedOverChangesNoBit) {
 }
 
 /// Links along one coordinate, from module 0 to all others.
-std::vector<GuardedLink> starOf(int others) {
-  std::vector<GuardedLink> links;
+std::vector<EnergyStableLink> starOf(int others) {
+  std::vector<EnergyStableLink> links;
   for (int i = 1; i <= others; ++i) {
-    GuardedLink link;
+    EnergyStableLink link;
     link.terms = {{0, 0, 0, {1, 0, 0}}, {i, i, 0, {-1, 0, 0}}};
     link.may_wait = true;
     links.push_back(link);
@@ -162,7 +162,7 @@ TEST(NearLinksTest, FindsAllThatCouldCloseAndLittleElse) {
 }
 
 TEST(NearLinksTest, LooksAtFewLinksAlways) {
-  std::vector<GuardedLink> links = starOf(200);
+  std::vector<EnergyStableLink> links = starOf(200);
   for (std::size_t l = 0; l < links.size(); ++l) {
     links[l].may_wait = l < 63;
   }

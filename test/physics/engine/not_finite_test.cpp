@@ -11,7 +11,7 @@
 namespace ergotic::physics {
 namespace {
 constexpr double kValues[] = {std::nan(""), kInfinity, -1e300, 1e30, 1e-310};
-constexpr std::size_t kTank = 4;  // number of a guarded link: the energy that it may spend
+constexpr std::size_t kTank = 4;  // number of an energy-stable link: the energy that it may spend
 constexpr int kTicksToSee = 3;
 constexpr int kTicksAfter = 3;
 
@@ -44,19 +44,19 @@ void put(State& state, std::size_t offset, bool is_double, double value) {
             : std::memcpy(&state[offset], &narrow, sizeof narrow);
 }
 
-/// Whether all positions, and what guarded links may spend, are numbers.
+/// Whether all positions, and what energy-stable links may spend, are numbers.
 bool movesOnNumbers(const Instrument& instrument) {
   const State state = stateOf(instrument);
   bool are_numbers = true;
   for (const StateEntry& entry : instrument.stateEntries()) {
-    const bool is_guarded = entry.name.rfind("guarded", 0) == 0;
+    const bool is_energy_stable = entry.name.rfind("energy_stable", 0) == 0;
     std::size_t of_element = 0;
     forEachNumber(entry, [&](std::size_t offset, bool is_double) {
       double wide = 0.0;
       float narrow = 0.0F;
       std::memcpy(&wide, &state[offset], is_double ? sizeof wide : 0);
       std::memcpy(&narrow, &state[offset], is_double ? 0 : sizeof narrow);
-      const bool counts = entry.name == "x" || (is_guarded && of_element == kTank);
+      const bool counts = entry.name == "x" || (is_energy_stable && of_element == kTank);
       are_numbers = are_numbers && (!counts || (std::isfinite(wide) && std::isfinite(narrow)));
       of_element = (of_element + 1) % (entry.numbers.doubles + entry.numbers.floats);
     });

@@ -83,7 +83,7 @@ class Orchestra {
   void hit(int hand, int mass) {
     const int contact = b_.link(scene::LiaType::kContact, mass, hand, 5e3, 0.01);
     b_.scene.lias[at(contact)].law.edit().width = {1e-3};
-    b_.scene.lias[at(contact)].scheme = scene::Scheme::kGuarded;
+    b_.scene.lias[at(contact)].scheme = scene::Scheme::kEnergyStable;
   }
 
   void push(int mat, int channel) { b_.scene.inputs[at(b_.push(mat, channel))].gain = {0.1}; }
@@ -103,7 +103,7 @@ class Orchestra {
   void bow(int one, int other) {
     const int friction = b_.link(scene::LiaType::kSmoothBow, one + 7, other + 7, 0.0, 0.2);
     b_.scene.lias[at(friction)].law.edit().width = {0.1};
-    b_.scene.lias[at(friction)].scheme = scene::Scheme::kGuarded;
+    b_.scene.lias[at(friction)].scheme = scene::Scheme::kEnergyStable;
   }
 
   SceneBuilder b_;

@@ -14,11 +14,11 @@ using test::RandomScene;
 constexpr unsigned kScenes = 520;
 constexpr unsigned kBlock = 40;  // scenes per test
 constexpr int kTicks = 2000;
-constexpr int kMostTicks = kTicks << 8;
-constexpr double kFar = 1e6;         // of energy: nobody need go on
-constexpr double kMostGrowth = 1e3;  // near its limit a stable step breathes by 4/(4 - lambda)
-constexpr double kCreated = 1e-11;   // of the energy at the start
-constexpr double kDrift = 1e-3;      // of the mean energy
+constexpr int kMaxTicks = kTicks << 8;
+constexpr double kFar = 1e6;        // of energy: nobody need go on
+constexpr double kMaxGrowth = 1e3;  // near its limit a stable step breathes by 4/(4 - lambda)
+constexpr double kCreated = 1e-11;  // of the energy at the start
+constexpr double kDrift = 1e-3;     // of the mean energy
 
 /// What was seen of the energy of a scene. All but the residual in units of that at the start.
 struct Seen {
@@ -94,16 +94,16 @@ Seen playAndWatch(const scene::Scene& scene, const Rates& rates, int ticks) {
 
 /// Links of a settled scene that are not linear.
 struct Links {
-  int guarded = 0;
+  int energy_stable = 0;
   int other = 0;
 };
 
 Links linksOf(const scene::Scene& scene) {
   Links links;
   for (const scene::Lia& lia : scene.lias) {
-    const bool is_guarded = lia.scheme == Scheme::kGuarded;
-    links.guarded += is_guarded ? 1 : 0;
-    links.other += !is_guarded && lia.type != LiaType::kSpringDamper ? 1 : 0;
+    const bool is_energy_stable = lia.scheme == Scheme::kEnergyStable;
+    links.energy_stable += is_energy_stable ? 1 : 0;
+    links.other += !is_energy_stable && lia.type != LiaType::kSpringDamper ? 1 : 0;
   }
   return links;
 }
@@ -118,7 +118,7 @@ bool isScalar(const scene::Scene& scene) {
 /// mean tells whether it drifts. One that grows drifts more over a longer one.
 double driftOf(const scene::Scene& scene, const Rates& rates) {
   double drift = 1.0;
-  for (int ticks = kTicks; ticks <= kMostTicks && std::abs(drift) > kDrift; ticks *= 4) {
+  for (int ticks = kTicks; ticks <= kMaxTicks && std::abs(drift) > kDrift; ticks *= 4) {
     const Seen seen = playAndWatch(scene, rates, ticks);
     drift = seen.late / seen.early - 1.0;
   }
@@ -136,14 +136,14 @@ void expectProperties(const RandomScene& random) {
     return;
   }
   const Links links = linksOf(settled.scene);
-  EXPECT_LE(seen.growth, kMostGrowth);
+  EXPECT_LE(seen.growth, kMaxGrowth);
   if (!random.has_two_rates && links.other == 0) {
     EXPECT_LE(seen.created, kCreated);
     if (random.is_lossless) {
       EXPECT_LE(seen.stored, kCreated);
     }
   }
-  if (random.has_two_rates && random.is_lossless && links.guarded + links.other == 0 &&
+  if (random.has_two_rates && random.is_lossless && links.energy_stable + links.other == 0 &&
       isScalar(settled.scene)) {
     EXPECT_LE(std::abs(driftOf(settled.scene, random.rates)), kDrift);
   }

@@ -34,7 +34,7 @@ scene::Scene struckTwice(double sleep_energy, Scheme scheme = Scheme::kExplicit)
 }
 
 TEST(SleeperTest, RestsBelowItsLimitAndWakesWhenStruck) {
-  for (const Scheme scheme : {Scheme::kExplicit, Scheme::kGuarded}) {
+  for (const Scheme scheme : {Scheme::kExplicit, Scheme::kEnergyStable}) {
     constexpr double kLimit = 1e-12;
     Player awake(struckTwice(0.0, scheme), {44100.0, 14});
     Player sleepy(struckTwice(kLimit, scheme), {44100.0, 14});

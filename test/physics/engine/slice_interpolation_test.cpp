@@ -100,8 +100,8 @@ TEST_P(SliceInterpolationTest, WhatASliceFeelsIsTheResponseThatItsLoopIsJudgedBy
   }
 }
 
-/// Everything that a slice may touch: springs, dampers, guarded and explicit contacts, a pluck, a
-/// point that it leads and presses, masses of several rates.
+/// Everything that a slice may touch: springs, dampers, energy-stable and explicit contacts, a
+/// pluck, a point that it leads and presses, masses of several rates.
 SceneBuilder everything() {
   SceneBuilder b;
   const int hand = b.slice(0);
@@ -120,7 +120,7 @@ SceneBuilder everything() {
   b.scene.connections.back().along.scale = 5.0;
   b.spring(hand, finger, 400.0, 0.05);
   b.link(LiaType::kContact, hand, first + 12, 2000.0, 0.2);
-  b.scene.lias.back().scheme = Scheme::kGuarded;
+  b.scene.lias.back().scheme = Scheme::kEnergyStable;
   b.link(LiaType::kContact, first + 4, hand, 800.0, 0.1);
   b.link(LiaType::kPluck, hand, first + 15, 600.0);
   b.scene.lias.back().law.edit().width = {2e-3};

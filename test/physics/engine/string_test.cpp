@@ -181,8 +181,8 @@ TEST(StringTest, PitchThatIsToldIsWhatTheInstrumentPlaysInEveryGeometry) {
   }
 }
 
-/// Across, the tension alone holds them, and that is not guarded.
-TEST(StringTest, GuardedStringsAreInTune) {
+/// Across, the tension alone holds them, and that is not energy-stable.
+TEST(StringTest, EnergyStableStringsAreInTune) {
   const Rates rates;
   for (const char* frequency : {"165", "440", "870"}) {
     const Settled settled =

@@ -98,8 +98,8 @@ TEST(TanksTest, AStretchIsTheSchemeOfKirchhoffAndCarrier) {
     last = x;
     x = free - harder * (before + after);
   }
-  std::vector<GuardReport> reports = player.instrument->makeGuardReports();
-  player.instrument->readGuards(reports);
+  std::vector<TankReport> reports = player.instrument->makeTankReports();
+  player.instrument->readTanks(reports);
   EXPECT_EQ(reports.at(0).active, 3000);
   EXPECT_EQ(reports.at(0).clipped, 0);
 }
@@ -150,8 +150,8 @@ TEST(TanksTest, KeepEnergyHoweverHardTheyAre) {
   }
 }
 
-/// Guarded links on the same modules are worked out as if the tank did not answer.
-TEST(TanksTest, NeitherTheyNorTheGuardedLinksOnTheirModulesMakeEnergy) {
+/// Energy-stable links on the same modules are worked out as if the tank did not answer.
+TEST(TanksTest, NeitherTheyNorTheEnergyStableLinksOnTheirModulesMakeEnergy) {
   const std::string more =
       "  hit: {type: contact, between: [m3, g], stiffness: 3e5, scheme: energy_stable}\n"
       "  felt: {type: felt, between: [m7, m2], stiffness: 1e7, exponent: 2, damping: 0.3}\n"

@@ -48,8 +48,8 @@ void expectSame(const Player& one, const Player& other, double scale, double tol
 /// What a lever of the weight w does to a mass M is done to M/w^2 that moves w times as far.
 TEST(TapTest, LeverMakesAMassAsHeavyAsItsWeightSays) {
   for (const LiaType type : {LiaType::kSpringDamper, LiaType::kContact, LiaType::kSmoothBow}) {
-    for (const Scheme scheme : {Scheme::kExplicit, Scheme::kGuarded}) {
-      if (type == LiaType::kSpringDamper && scheme == Scheme::kGuarded) {
+    for (const Scheme scheme : {Scheme::kExplicit, Scheme::kEnergyStable}) {
+      if (type == LiaType::kSpringDamper && scheme == Scheme::kEnergyStable) {
         continue;
       }
       const auto play = [&](double lever, double mass, double far) {
@@ -132,7 +132,7 @@ scene::Scene tangle(Geometry geometry, unsigned seed) {
     const int link = b.link(type, anyTap(), other, type == LiaType::kSmoothBow ? 0.0 : k,
                             type == LiaType::kCubic ? 0.0 : 1e-6 * k);
     Lia& lia = b.scene.lias[at(link)];
-    lia.scheme = type == LiaType::kSpringDamper ? Scheme::kExplicit : Scheme::kGuarded;
+    lia.scheme = type == LiaType::kSpringDamper ? Scheme::kExplicit : Scheme::kEnergyStable;
     lia.law.edit().width = {type == LiaType::kSmoothBow ? 0.3 : 1e-3};
     lia.law.edit().nonlinearity = {type == LiaType::kCubic ? 100.0 * k : 0.0};
   }
@@ -141,7 +141,7 @@ scene::Scene tangle(Geometry geometry, unsigned seed) {
 }
 
 /// What a tap gives and takes is given and taken by its modules.
-TEST(TapTest, EnergyBalancesAndGuardedLinksThatShareModulesMakeNothing) {
+TEST(TapTest, EnergyBalancesAndEnergyStableLinksThatShareModulesMakeNothing) {
   for (const Geometry geometry :
        {Geometry::kScalar, Geometry::kLine, Geometry::kPlane, Geometry::kSpace}) {
     for (unsigned seed = 0; seed < 6; ++seed) {

@@ -60,7 +60,7 @@ TEST(TechniquesTest, AHammerIsInContactAsLongAsItsFeltSays) {
       const double a = 1.0 + 1.0 / (p + 1.0);
       const double contact =
           std::sqrt(kPi) * std::tgamma(a) / std::tgamma(a - 0.5) * 2.0 * deepest / speed;
-      // A guarded force is a mean over two steps, which adds one at either end.
+      // An energy-stable force is a mean over two steps, which adds one at either end.
       EXPECT_NEAR(static_cast<double>(touching) - 1.0, contact * kRate, 1.5) << speed << " " << p;
       const double most =
           std::abs(*std::max_element(heard.begin(), heard.end(),

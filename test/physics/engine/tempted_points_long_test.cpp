@@ -117,7 +117,7 @@ class Temptation : public SceneBuilder {
                            LiaType::kCubic};
     Lia& lia = scene.lias[at(link(types[random_() % 4], a, b, k, perhaps(1e-5, 0.3)))];
     if (lia.type != LiaType::kSpringDamper) {
-      lia.scheme = Scheme::kGuarded;
+      lia.scheme = Scheme::kEnergyStable;
       lia.law.edit().nonlinearity = {k / logarithmic(random_, 1e-12, 1e-6)};
     }
   }

@@ -178,7 +178,7 @@ TEST(LawsTest, OneWayPluckPullsOnItsWayOutOnly) {
 }
 
 TEST(LawsTest, ConditionalLinkIsAsHeldAsItWasWhenItsStateIsLoaded) {
-  for (const scene::Scheme scheme : {scene::Scheme::kExplicit, scene::Scheme::kGuarded}) {
+  for (const scene::Scheme scheme : {scene::Scheme::kExplicit, scene::Scheme::kEnergyStable}) {
     SceneBuilder b;
     const int driven = b.driven(0);
     const int ground = b.ground();

@@ -21,9 +21,9 @@ class Sections {
     }
   }
 
-  void guarded(int a, int other) {
+  void energy_stable(int a, int other) {
     b.scene.lias[at(b.link(scene::LiaType::kContact, a, other, 1.0))].scheme =
-        scene::Scheme::kGuarded;
+        scene::Scheme::kEnergyStable;
   }
 
   /// A string of two masses in section b, and a point on it that module 0 leads: of section a.
@@ -75,7 +75,7 @@ TEST(GroupsTest, LinksJoinWhatRunsAndNothingToWhatIsHeld) {
   sections.b.spring(0, 1, 1.0);
   sections.b.spring(2, 1, 1.0);
   sections.b.spring(3, 4, 1.0);
-  sections.guarded(0, 4);
+  sections.energy_stable(0, 4);
   EXPECT_EQ(sections.told(), "abc d : e");
   EXPECT_EQ(sections.told({44100.0, 1}), "abcde : ") << "nothing is held where a tick is one frame";
 }
@@ -125,11 +125,11 @@ TEST(GroupsTest, PlacesRunWithWhatLeadsThem) {
   }
 }
 
-TEST(GroupsTest, GuardedLinksThatEndTheirStepsTogetherRunTogether) {
+TEST(GroupsTest, EnergyStableLinksThatEndTheirStepsTogetherRunTogether) {
   Sections sections({1, 0, 0});
   sections.leadPointOfB();
   EXPECT_EQ(sections.told(), "ab : c");
-  sections.guarded(1, 2);
+  sections.energy_stable(1, 2);
   EXPECT_EQ(sections.told(), "abc : ") << "what is linked to one that runs now";
 }
 

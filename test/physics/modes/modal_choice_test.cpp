@@ -190,7 +190,7 @@ const Refused kRefused[] = {
      }},
     {"65 of its modules are touched by what is not part of the modes, allowed: at most 64",
      [](SceneBuilder& b, int first) {
-       for (int i = 1; i <= kMostTouches; ++i) {
+       for (int i = 1; i <= kMaxModalTouches; ++i) {
          b.push(first + 10 + i);
        }
      }},

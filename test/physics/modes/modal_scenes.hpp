@@ -55,7 +55,7 @@ struct Plate : SceneBuilder {
 };
 
 /// A plate with free edges in a medium, with taps, a force input, a stop that it hits, and a slice
-/// of the device that strikes it through a guarded contact.
+/// of the device that strikes it through an energy-stable contact.
 inline Plate playedPlate() {
   const double k = 0.1 * Plate::kMass * kRate * kRate;
   Plate b(k, 2e3 / k);
@@ -75,10 +75,10 @@ inline Plate playedPlate() {
   b.hear(pick, 2);
   const int slice = b.slice(0);
   b.link(scene::LiaType::kContact, slice, b.of(2, 7), 0.5 * k, 1e-2);
-  b.scene.lias.back().scheme = scene::Scheme::kGuarded;
+  b.scene.lias.back().scheme = scene::Scheme::kEnergyStable;
   b.link(scene::LiaType::kCubic, pick, slice, 50.0);
   b.scene.lias.back().law.edit().nonlinearity = {1e5};
-  b.scene.lias.back().scheme = scene::Scheme::kGuarded;
+  b.scene.lias.back().scheme = scene::Scheme::kEnergyStable;
   b.scene.lias.back().place = {321, 1};
   return b;
 }

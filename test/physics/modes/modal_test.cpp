@@ -47,11 +47,11 @@ void expectSameSound(const Player& network, const Player& modal, double toleranc
 }
 
 void expectSameGuards(const Player& network, const Player& modal) {
-  std::vector<GuardReport> expected = network.instrument->makeGuardReports();
-  std::vector<GuardReport> reports = modal.instrument->makeGuardReports();
+  std::vector<TankReport> expected = network.instrument->makeTankReports();
+  std::vector<TankReport> reports = modal.instrument->makeTankReports();
   ASSERT_EQ(reports.size(), expected.size());
-  network.instrument->readGuards(expected);
-  modal.instrument->readGuards(reports);
+  network.instrument->readTanks(expected);
+  modal.instrument->readTanks(reports);
   for (std::size_t g = 0; g < reports.size(); ++g) {
     EXPECT_EQ(reports[g].lia, expected[g].lia);
     EXPECT_GT(reports[g].active, 0);
@@ -266,12 +266,12 @@ TEST(ModalTest, EigenvaluesAcrossRatesProveNothingOfFewerModes) {
 }
 
 /// With modes left out a force at one place moves the others within the step.
-TEST(ModalTest, GuardedLinksOnPlacesThatMoveEachOtherMakeNothing) {
+TEST(ModalTest, EnergyStableLinksOnPlacesThatMoveEachOtherMakeNothing) {
   Plate b(0.1 * Plate::kMass * kRate * kRate, 1e-3);
   for (const int m : {b.of(2, 3), b.of(3, 3), b.of(7, 7)}) {
     const int hammer = b.mass(2e-3, 1e-4, -2.0);
     b.link(scene::LiaType::kContact, m, hammer, 2e5);
-    b.scene.lias.back().scheme = scene::Scheme::kGuarded;
+    b.scene.lias.back().scheme = scene::Scheme::kEnergyStable;
     b.spring(hammer, b.ground(1e-4), 100.0);
   }
   b.hear(b.of(2, 3));
@@ -313,7 +313,7 @@ TEST(ModalTest, TapsOnAStringAreTapsOnItsModes) {
   b.hear(tap, 3);
   b.push(tap);
   b.link(scene::LiaType::kContact, tap, b.ground(2e-4), 2e5, 1e-3);
-  b.scene.lias.back().scheme = scene::Scheme::kGuarded;
+  b.scene.lias.back().scheme = scene::Scheme::kEnergyStable;
   b.spring(tap, b.ground(), 1e3);
   expectExact(b.scene);
 }

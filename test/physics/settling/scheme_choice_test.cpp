@@ -36,10 +36,10 @@ scene::Value damped(double s) {
   return {s * kRate / kInverse};
 }
 
-TEST(SchemeChoiceTest, ContactsAreGuarded) {
+TEST(SchemeChoiceTest, ContactsAreEnergyStable) {
   Pair pair(LiaType::kContact);
   pair.lia().stiffness = stiff(0.0501);
-  EXPECT_EQ(pair.scheme(), Scheme::kGuarded);
+  EXPECT_EQ(pair.scheme(), Scheme::kEnergyStable);
   ASSERT_EQ(pair.settled().notes.size(), 1U);
   EXPECT_EQ(pair.settled().notes[0],
             "built.yaml:100:1: note: link 'l0': energy-stable, so that it cannot gain energy "
@@ -52,22 +52,22 @@ TEST(SchemeChoiceTest, FrictionIsJudgedAtTheWorstEndOfItsRange) {
   pair.lia().damping = {damped(0.299).factor, 0};
   EXPECT_EQ(pair.scheme(), Scheme::kExplicit);
   pair.lia().damping = {damped(0.301).factor, 0};
-  EXPECT_EQ(pair.scheme(), Scheme::kGuarded);
+  EXPECT_EQ(pair.scheme(), Scheme::kEnergyStable);
   pair.lia().damping = damped(0.301);
   pair.b.scene.mats[0].mass = {kLight, 0};
   pair.b.scene.mats[1].mass = {kHeavy, 0};
-  EXPECT_EQ(pair.scheme(), Scheme::kGuarded) << "half the masses at the lower end";
+  EXPECT_EQ(pair.scheme(), Scheme::kEnergyStable) << "half the masses at the lower end";
 }
 
-TEST(SchemeChoiceTest, FrictionThatReachesAMassThatLosesNothingIsGuarded) {
+TEST(SchemeChoiceTest, FrictionThatReachesAMassThatLosesNothingIsEnergyStable) {
   Pair pair(LiaType::kBow);
   pair.lia().damping = damped(0.01);
   EXPECT_EQ(pair.scheme(), Scheme::kExplicit);
   pair.b.scene.sections[0].medium = {};
-  EXPECT_EQ(pair.scheme(), Scheme::kGuarded);
+  EXPECT_EQ(pair.scheme(), Scheme::kEnergyStable);
 }
 
-/// What a law bears of kappa or of h F' (1/Ma + 1/Mb) before it is guarded.
+/// What a law bears of kappa or of h F' (1/Ma + 1/Mb) before it is energy-stable.
 struct Turn {
   const char* name;
   LiaType type;
@@ -112,13 +112,13 @@ const Turn kTurns[] = {
     {"cubic", LiaType::kCubic, 0.0, setNonlinearity},
 };
 
-TEST(SchemeChoiceTest, EveryLawIsGuardedAboveWhatItBears) {
+TEST(SchemeChoiceTest, EveryLawIsEnergyStableAboveWhatItBears) {
   for (const Turn& turn : kTurns) {
     Pair pair(turn.type);
     turn.set(pair.lia(), 0.999 * turn.bears);
     EXPECT_EQ(pair.scheme(), Scheme::kExplicit) << turn.name;
     turn.set(pair.lia(), 1.001 * turn.bears + (turn.bears == 0.0 ? 1e-6 : 0.0));
-    EXPECT_EQ(pair.scheme(), Scheme::kGuarded) << turn.name;
+    EXPECT_EQ(pair.scheme(), Scheme::kEnergyStable) << turn.name;
   }
 }
 
@@ -133,7 +133,7 @@ TEST(SchemeChoiceTest, SteepestFallOfTheSmoothBowIsThatOfItsCurve) {
   pair.lia().damping = damped(0.2 / fall * 0.9999);
   EXPECT_EQ(pair.scheme(), Scheme::kExplicit);
   pair.lia().damping = damped(0.2 / fall * 1.0001);
-  EXPECT_EQ(pair.scheme(), Scheme::kGuarded);
+  EXPECT_EQ(pair.scheme(), Scheme::kEnergyStable);
 }
 
 TEST(SchemeChoiceTest, FrictionTablesAreJudgedByTheirLines) {
@@ -147,8 +147,8 @@ TEST(SchemeChoiceTest, FrictionTablesAreJudgedByTheirLines) {
       return pair.scheme();
     };
     EXPECT_EQ(scheme(0.999, 0.199), Scheme::kExplicit);
-    EXPECT_EQ(scheme(1.001, 0.199), Scheme::kGuarded);
-    EXPECT_EQ(scheme(0.999, 0.201), Scheme::kGuarded);
+    EXPECT_EQ(scheme(1.001, 0.199), Scheme::kEnergyStable);
+    EXPECT_EQ(scheme(0.999, 0.201), Scheme::kEnergyStable);
   }
 }
 
@@ -166,13 +166,13 @@ TEST(SchemeChoiceTest, AcrossRatesOnlyWhatNoForceMovesMayBeSlow) {
     b.mass(1.0, 0.0, 0.0, SceneBuilder::kGestural);  // too many to be raised to the faster rate
   }
   const Settled settled = settle(b.scene, kRates);
-  EXPECT_EQ(settled.scene.lias[0].scheme, Scheme::kGuarded);
+  EXPECT_EQ(settled.scene.lias[0].scheme, Scheme::kEnergyStable);
   EXPECT_EQ(settled.scene.lias[1].scheme, Scheme::kExplicit);
-  EXPECT_EQ(settled.scene.lias[2].scheme, Scheme::kGuarded);
+  EXPECT_EQ(settled.scene.lias[2].scheme, Scheme::kEnergyStable);
   ASSERT_EQ(settled.notes.size(), 3U);  // by place
   EXPECT_THAT(settled.notes[1], HasSubstr("'l1': explicit, because one end is a slower mass"));
   const Settled at_one_rate = settle(b.scene, {kRate, 1});
-  EXPECT_EQ(at_one_rate.scene.lias[1].scheme, Scheme::kGuarded);
+  EXPECT_EQ(at_one_rate.scene.lias[1].scheme, Scheme::kEnergyStable);
 }
 
 TEST(SchemeChoiceTest, WallThatOnlyAHandTouchesStaysExplicit) {
@@ -201,7 +201,7 @@ TEST(SchemeChoiceTest, PointIsAsLightAsTheLightestModuleUnderIt) {
     lia.damping = {0.599 * mass * kRate};  // falls by a third of that
     EXPECT_EQ(settle(b.scene, kRates).scene.lias.back().scheme, Scheme::kExplicit) << moves;
     lia.damping = {0.601 * mass * kRate};
-    EXPECT_EQ(settle(b.scene, kRates).scene.lias.back().scheme, Scheme::kGuarded) << moves;
+    EXPECT_EQ(settle(b.scene, kRates).scene.lias.back().scheme, Scheme::kEnergyStable) << moves;
   }
 }
 
@@ -220,7 +220,7 @@ TEST(SchemeChoiceTest, LinksOfOnePlaceAreSaidOnce) {
 }
 
 TEST(SchemeChoiceTest, WhatTheSceneSaysIsKept) {
-  for (const Scheme said : {Scheme::kExplicit, Scheme::kGuarded}) {
+  for (const Scheme said : {Scheme::kExplicit, Scheme::kEnergyStable}) {
     for (const double kappa : {0.01, 0.5}) {
       Pair pair(LiaType::kContact);
       pair.lia().stiffness = stiff(kappa);
@@ -239,21 +239,21 @@ TEST(SchemeChoiceTest, OtherLinksStayExplicit) {
   }
 }
 
-TEST(SchemeChoiceTest, LinksThatAreExplicitIfStableAreGuardedOnlyIfTheyAreTooStiff) {
+TEST(SchemeChoiceTest, LinksThatAreExplicitIfStableAreEnergyStableOnlyIfTheyAreTooStiff) {
   Pair pair(LiaType::kContact);
   pair.lia().scheme = Scheme::kExplicitIfStable;
   pair.lia().stiffness = stiff(3.9);
   EXPECT_EQ(pair.scheme(), Scheme::kExplicit);
   EXPECT_TRUE(pair.settled().notes.empty());
   pair.lia().stiffness = stiff(40.0);
-  EXPECT_EQ(pair.scheme(), Scheme::kGuarded);
+  EXPECT_EQ(pair.scheme(), Scheme::kEnergyStable);
   EXPECT_THAT(pair.settled().notes.at(0),
               AllOf(HasSubstr("link 'l0': energy-stable (h^2 K"), HasSubstr(" = 40, "),
                     HasSubstr("does not sound as programs do that play it explicitly")));
   EXPECT_EQ(certify(pair.settled().scene, kRates).verdict, Verdict::kPassive);
 }
 
-TEST(SchemeChoiceTest, TheStiffestAreGuardedUntilTheOthersAreStable) {
+TEST(SchemeChoiceTest, TheStiffestAreEnergyStableUntilTheOthersAreStable) {
   SceneBuilder b;
   const int mass = b.mass(kLight);
   for (const double kappa : {1.0, 6.0, 2.5}) {
@@ -262,12 +262,12 @@ TEST(SchemeChoiceTest, TheStiffestAreGuardedUntilTheOthersAreStable) {
   }
   const scene::Scene settled = settle(b.scene, kRates).scene;
   EXPECT_EQ(settled.lias[0].scheme, Scheme::kExplicit);
-  EXPECT_EQ(settled.lias[1].scheme, Scheme::kGuarded);
+  EXPECT_EQ(settled.lias[1].scheme, Scheme::kEnergyStable);
   EXPECT_EQ(settled.lias[2].scheme, Scheme::kExplicit);
 }
 
 /// What is linear is unstable without them, and guarding them would only change their sound.
-TEST(SchemeChoiceTest, NoneIsGuardedForTheSakeOfWhatIsTooStiffByItself) {
+TEST(SchemeChoiceTest, NoneIsEnergyStableForTheSakeOfWhatIsTooStiffByItself) {
   SceneBuilder b;
   const int mass = b.mass(kLight);
   b.spring(mass, b.ground(), 5.0 * kLight * kRate * kRate);

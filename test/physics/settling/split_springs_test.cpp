@@ -10,7 +10,7 @@ namespace {
 constexpr double kStiffness = 1000.0;
 constexpr double kRest = 0.06;
 
-/// A mass at 0.1 m from a ground, on a guarded spring that wants to be 0.06 m long.
+/// A mass at 0.1 m from a ground, on an energy-stable spring that wants to be 0.06 m long.
 SceneBuilder stretched() {
   SceneBuilder b;
   b.scene.sections[0].geometry = scene::Geometry::kSpace;
@@ -18,7 +18,7 @@ SceneBuilder stretched() {
   b.spring(mass, b.ground(), kStiffness, 0.5);
   b.scene.mats[at(mass)].rest = b.scene.mats[at(mass)].position = {0.06, 0.08, 0.0};
   b.scene.lias[0].rest_length = kRest;
-  b.scene.lias[0].scheme = Scheme::kGuarded;
+  b.scene.lias[0].scheme = Scheme::kEnergyStable;
   return b;
 }
 
@@ -26,22 +26,22 @@ TEST(SplitSpringsTest, BothPartsTogetherAreTheSpring) {
   scene::Scene scene = stretched().scene;
   splitSprings(scene);
   ASSERT_EQ(scene.lias.size(), 2U);
-  const scene::Lia& guarded = scene.lias[0];
+  const scene::Lia& energy_stable = scene.lias[0];
   const scene::Lia& tension = scene.lias[1];
   EXPECT_EQ(tension.name.str(), "l0.tension");
   EXPECT_EQ(tension.scheme, Scheme::kExplicit);
   EXPECT_EQ(tension.damping.factor, 0.0);
-  EXPECT_EQ(guarded.scheme, Scheme::kGuarded);
-  EXPECT_EQ(guarded.damping.factor, 0.5);
-  EXPECT_DOUBLE_EQ(guarded.rest_length, 0.1) << "it pushes nothing where the mass rests";
+  EXPECT_EQ(energy_stable.scheme, Scheme::kEnergyStable);
+  EXPECT_EQ(energy_stable.damping.factor, 0.5);
+  EXPECT_DOUBLE_EQ(energy_stable.rest_length, 0.1) << "it pushes nothing where the mass rests";
   for (const double length : {0.01, 0.1, 0.3}) {
-    EXPECT_NEAR(guarded.stiffness.factor * (length - guarded.rest_length) +
+    EXPECT_NEAR(energy_stable.stiffness.factor * (length - energy_stable.rest_length) +
                     tension.stiffness.factor * length,
                 kStiffness * (length - kRest), 1e-9);
   }
 }
 
-TEST(SplitSpringsTest, WhatIsNotStretchedOrNotGuardedStays) {
+TEST(SplitSpringsTest, WhatIsNotStretchedOrNotEnergyStableStays) {
   const auto splits = [](auto&& change) {
     SceneBuilder b = stretched();
     change(b.scene);

@@ -48,7 +48,7 @@ TEST(SplitTablesTest, WhatTheSpringsHoldIsSplit) {
     EXPECT_EQ(push.scheme, Scheme::kExplicit);
     EXPECT_NEAR(push.stiffness.factor, -1e-3 * kHoldingStiffness, 3e-5 * kHoldingStiffness * 1e-3);
     EXPECT_NEAR(push.stiffness.factor * -push.rest_length, force, 1e-6);
-    EXPECT_EQ(rest.scheme, Scheme::kGuarded);
+    EXPECT_EQ(rest.scheme, Scheme::kEnergyStable);
     EXPECT_EQ(rest.stiffness.factor, -push.stiffness.factor);
     EXPECT_EQ(rest.law->width.factor, push.rest_length);
     EXPECT_LE(certify(scene, kEveryFrame).verdict, Verdict::kBounded);
@@ -60,7 +60,7 @@ TEST(SplitTablesTest, WhatHasAFloorStaysWhole) {
   for (const auto& [elastic, viscous] : {std::pair(well, Points{}), {well, kConstant}}) {
     const scene::Scene scene = settle(held(elastic, viscous).scene, kEveryFrame).scene;
     EXPECT_EQ(scene.lias.size(), 2U);
-    EXPECT_EQ(scene.lias[1].scheme, Scheme::kGuarded);
+    EXPECT_EQ(scene.lias[1].scheme, Scheme::kEnergyStable);
     EXPECT_EQ(certify(scene, kEveryFrame).verdict, Verdict::kPassive);
   }
 }
@@ -109,7 +109,7 @@ TEST(SplitTablesTest, WhatIsLeftNowhereFalls) {
     EXPECT_NEAR(push.stiffness.factor, limit.elastic == kOutward ? -1e5 : 0.0, 0.1);
     EXPECT_NEAR(push.damping.factor, limit.damping > 0.0 ? -50.0 : 0.0, 1e-9);
     EXPECT_EQ(push.scheme, Scheme::kExplicit);
-    EXPECT_EQ(rest.scheme, Scheme::kGuarded);
+    EXPECT_EQ(rest.scheme, Scheme::kEnergyStable);
     EXPECT_EQ(rest.stiffness.factor, -push.stiffness.factor);
     EXPECT_EQ(rest.damping.factor, -push.damping.factor);
     EXPECT_LE(certify(scene, kEveryFrame).verdict, Verdict::kBounded);

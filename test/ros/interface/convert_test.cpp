@@ -210,19 +210,19 @@ TEST(ConvertTest, EnergyKeepsSectionsAndCouplingsApart) {
   EXPECT_EQ(energy.residual, 1e-12);
 }
 
-TEST(ConvertTest, StatusNamesAGuardedLinkAsLongAsItIsCutTooOften) {
+TEST(ConvertTest, StatusNamesAEnergyStableLinkAsLongAsItIsCutTooOften) {
   const scene::Scene scene = scene::readYaml(kScene, "two.yaml");
   station::MotionFrame motion;
   motion.energies.stored = 2.0;
   motion.energies.residual = 1e-9;
-  motion.guards = {{0, 1000, 100}};
+  motion.tanks = {{0, 1000, 100}};
   Status status;
   fillStatus(motion, scene, status);
   EXPECT_EQ(status.stored_energy, 2.0);
   EXPECT_EQ(status.energy_residual, 0.5e-9);
   EXPECT_THAT(status.guard_warning, HasSubstr("two.yaml:9:"));
   EXPECT_THAT(status.guard_warning, HasSubstr("'l'"));
-  motion.guards = {{0, 10000, 100}};
+  motion.tanks = {{0, 10000, 100}};
   fillStatus(motion, scene, status);
   EXPECT_EQ(status.guard_warning, "");
 }

@@ -72,12 +72,12 @@ TEST_F(PresetFileTest, IsLeftAsItIsWhereItCannotBeRead) {
 }
 
 TEST_F(PresetFileTest, HoldsAHundredAtMost) {
-  for (std::size_t i = 0; i < PresetFile::kMostPresets; ++i) {
+  for (std::size_t i = 0; i < PresetFile::kMaxPresets; ++i) {
     file_.keep("p" + std::to_string(i), {{"loss", 1.0}});
   }
   file_.keep("p7", {{"loss", 2.0}});
   EXPECT_THAT(complaintOf([&] { file_.keep("other", {{"loss", 1.0}}); }), HasSubstr("allowed"));
-  EXPECT_EQ(file_.read().size(), PresetFile::kMostPresets);
+  EXPECT_EQ(file_.read().size(), PresetFile::kMaxPresets);
 }
 
 TEST(FittingValuesTest, LeaveOutWhatTheSceneDoesNotHaveOrAllowAndSaySo) {

@@ -65,7 +65,7 @@ TEST(StringGeneratorTest, MakesMassesBetweenTwoGroundsJoinedInOrder) {
   EXPECT_EQ(s.strings[0].loss.factor, 0.0);
 }
 
-TEST(StringGeneratorTest, LinksWithARestLengthMayBeGuarded) {
+TEST(StringGeneratorTest, LinksWithARestLengthMayBeEnergyStable) {
   const Scene s = readYaml(
       "ergotic: 1\nsections: {a: {geometry: plane}}\ngenerators:\n"
       "  - {type: string, name: s, masses: 2, mass: 1, stiffness: 1, to: [1, 0],\n"
@@ -74,7 +74,7 @@ TEST(StringGeneratorTest, LinksWithARestLengthMayBeGuarded) {
       "     rest_length_ratio: 0.5, scheme: energy_stable}\n",
       "s.yaml");
   for (const Lia& lia : s.lias) {
-    EXPECT_EQ(lia.scheme, Scheme::kGuarded) << lia.name;
+    EXPECT_EQ(lia.scheme, Scheme::kEnergyStable) << lia.name;
   }
 }
 

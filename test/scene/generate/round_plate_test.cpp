@@ -38,15 +38,15 @@ TEST(RoundPlateTest, AllFortyPartialsAreThereInOrderAndInPairs) {
   for (const double poisson : {0.0, 0.3, 0.5}) {
     for (const PlateEdges edges :
          {PlateEdges::kClamped, PlateEdges::kSupported, PlateEdges::kFree}) {
-      const std::vector<RoundMode> modes = roundModes(edges, poisson, kMostPartials);
-      ASSERT_EQ(modes.size(), std::size_t{kMostPartials});
+      const std::vector<RoundMode> modes = roundModes(edges, poisson, kMaxPartials);
+      ASSERT_EQ(modes.size(), std::size_t{kMaxPartials});
       for (std::size_t i = 1; i < modes.size(); ++i) {
         EXPECT_GE(modes[i].k, modes[i - 1].k);
         EXPECT_EQ(modes[i].is_sine, modes[i].diameters > 0 && modes[i].k == modes[i - 1].k);
       }
       // Weyl: k^2/4 vibrations below k, and of order k beside these.
       const double k = modes.back().k;
-      EXPECT_NEAR(kMostPartials, 0.25 * k * k, k);
+      EXPECT_NEAR(kMaxPartials, 0.25 * k * k, k);
     }
   }
 }

@@ -163,7 +163,7 @@ TEST(ReadMdlTest, DetentIsTheOldNameOfAContact) {
   EXPECT_DOUBLE_EQ(s.mats[0].push->velocity.x(), -0.5) << "its file is of the older language";
 }
 
-TEST(ReadMdlTest, OnlyLinksThatComeAndGoMayBecomeGuarded) {
+TEST(ReadMdlTest, OnlyLinksThatComeAndGoMayBecomeEnergyStable) {
   const auto schemeOf = [](const std::string& line) { return linkOf("@l " + line + "\n").scheme; };
   EXPECT_EQ(schemeOf("contact @a @b 1 0"), Scheme::kExplicitIfStable);
   EXPECT_EQ(schemeOf("nlContact @a @b 1 2 3 0"), Scheme::kExplicitIfStable);

@@ -142,7 +142,7 @@ TEST(ReadLinksTest, LinearLinksMayBeNegative) {
   EXPECT_EQ(both.damping.parameter, 1);
 }
 
-/// What may stand after `between` of every type, and whether the link may be guarded.
+/// What may stand after `between` of every type, and whether the link may be energy-stable.
 struct Kind {
   const char* fields;
   bool guardable;
@@ -179,17 +179,17 @@ TEST(ReadLinksTest, SchemeIsLeftToBeChosenWhereThereIsAChoice) {
     EXPECT_EQ(last(start + ", scheme: auto}}\n").scheme, open) << kind.fields;
     EXPECT_EQ(last(start + ", scheme: explicit}}\n").scheme, Scheme::kExplicit) << kind.fields;
     const Scene scene = readYaml(start + "}}\n", "links.yaml");
-    EXPECT_EQ(isGuardable(scene, scene.lias.back()), kind.guardable) << kind.fields;
+    EXPECT_EQ(canBeEnergyStable(scene, scene.lias.back()), kind.guardable) << kind.fields;
   }
 }
 
-/// What drives may be split into parts of which one is guarded.
+/// What drives may be split into parts of which one is energy-stable.
 TEST(ReadLinksTest, SchemeOfATableThatDrivesIsOpen) {
   const std::string start =
       LINK "between: [m, n], type: table, viscous: [[-1, 1], [0, 2], [1, 4], [2, 1]]";
   const Scene scene = readYaml(start + "}}\n", "links.yaml");
   EXPECT_EQ(scene.lias.back().scheme, Scheme::kAuto);
-  EXPECT_FALSE(isGuardable(scene, scene.lias.back()));
+  EXPECT_FALSE(canBeEnergyStable(scene, scene.lias.back()));
   EXPECT_EQ(last(start + ", scheme: explicit}}\n").scheme, Scheme::kExplicit);
 }
 
@@ -212,8 +212,8 @@ TEST(ReadLinksTest, TheOldWordGuardedIsReadWithOneWarning) {
                "y: {between: [m, n], type: contact, stiffness: 2, scheme: guarded}}\n",
                "old.yaml");
   const std::size_t links = scene.lias.size();
-  EXPECT_EQ(scene.lias[links - 2].scheme, Scheme::kGuarded);
-  EXPECT_EQ(scene.lias[links - 1].scheme, Scheme::kGuarded);
+  EXPECT_EQ(scene.lias[links - 2].scheme, Scheme::kEnergyStable);
+  EXPECT_EQ(scene.lias[links - 1].scheme, Scheme::kEnergyStable);
   EXPECT_EQ(std::count_if(scene.warnings.begin(), scene.warnings.end(),
                           [](const std::string& warning) {
                             return warning.find("is the old word for 'scheme: energy_stable'") !=
@@ -232,7 +232,7 @@ TEST(ReadLinksTest, SchemeIsTakenOrRefusedAsTheTypeAllows) {
     }
     std::string whole = text;
     whole.erase(whole.find("<!>"), 3);
-    EXPECT_EQ(last(whole).scheme, Scheme::kGuarded) << kind.fields;
+    EXPECT_EQ(last(whole).scheme, Scheme::kEnergyStable) << kind.fields;
   }
 }
 
@@ -310,7 +310,7 @@ const Damage kDamages[] = {
     {"link 'x' cannot be energy-stable",
      [](Scene&, Lia& l) {
        l.type = LiaType::kSpringDamper;
-       l.scheme = Scheme::kGuarded;
+       l.scheme = Scheme::kEnergyStable;
      }},
     {"link 'x' cannot be filtered", [](Scene&, Lia& l) { l.filtered = true; }},
     {"rest_length of link 'x' = -1 m is out of range, allowed: >= 0 m",

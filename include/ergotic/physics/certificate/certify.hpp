@@ -64,7 +64,7 @@ struct Certificate {
 ///
 /// Linear part: link bound, Collatz-Wielandt bound, then the exact eigenvalue by sparse LDL^T, with
 /// every parameter at the worst end of its range and moving points at their worst places. Nonlinear
-/// links enter with their largest slope where it is bounded; guarded ones make no energy.
+/// links enter with their largest slope where it is bounded; energy-stable ones make no energy.
 /// Coupled rates: the eigenvalues of one period of the slowest section, up to 300 masses.
 /// \param scene   settled
 /// \param device  that it will be played on

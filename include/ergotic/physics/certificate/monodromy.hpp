@@ -15,9 +15,9 @@ namespace ergotic::physics {
 /// states, so it is what is played.
 ///
 /// Linear part: the links that are springs or dampers, and K and Z of two-sided nonlinear ones;
-/// contacts open, pluck and bow away, guarded links away; hands and driven modules held; moving
-/// points where they are at the start; Euclidean sections as scalar ones. Parameters have their
-/// present values.
+/// contacts open, pluck and bow away, energy-stable links away; hands and driven modules held;
+/// moving points where they are at the start; Euclidean sections as scalar ones. Parameters have
+/// their present values.
 ///
 /// State: displacements of the n modules that forces move, then what they are about to move by, in
 /// units of their own; shape (2n, 2n). Eigenvalues do not depend on these units.

@@ -40,8 +40,8 @@ struct Energies {
   double residual = 0.0;
 };
 
-/// How often the force of a guarded link had to be cut to keep it from making energy.
-struct GuardReport {
+/// How often the force of an energy-stable link had to be cut to keep it from making energy.
+struct TankReport {
   int lia = 0;               ///< index in Scene::lias
   std::int64_t active = 0;   ///< steps in which it pushed
   std::int64_t clipped = 0;  ///< of these, steps with less force than its law asks for

@@ -53,7 +53,8 @@ struct TickIo {
 ///      connection points follow them,
 ///   2. outputs are taken,
 ///   3. explicit links of the sections due give forces from the new positions, points hand theirs
-///      on, then hands that hold modules, then guarded links, which need to know all other forces.
+///      on, then hands that hold modules, then energy-stable links, which need to know all other
+///      forces.
 /// Parts that do not need each other at the same instant go through all R frames by themselves
 /// (docs/performance.md, "Groups and threads").
 /// The forces on the slices after the last frame are F[n], a function of x[n]: they wait for the
@@ -109,12 +110,12 @@ class Instrument {
   /// Realtime: yes.
   virtual void readDisplacements(float* to) const noexcept = 0;
 
-  /// Room for `readEnergies` and `readGuards`. Realtime: no.
+  /// Room for `readEnergies` and `readTanks`. Realtime: no.
   virtual Energies makeEnergies() const = 0;
-  virtual std::vector<GuardReport> makeGuardReports() const = 0;
+  virtual std::vector<TankReport> makeTankReports() const = 0;
   /// \pre made by the above. Realtime: yes. Cost: O(modules + links)
   virtual void readEnergies(Energies& to) const noexcept = 0;
-  virtual void readGuards(std::vector<GuardReport>& to) const noexcept = 0;
+  virtual void readTanks(std::vector<TankReport>& to) const noexcept = 0;
 
   /// Choices of compile() for each part of the scene, with reasons, one line each. Realtime: no.
   virtual std::vector<std::string> describe() const = 0;
@@ -122,7 +123,7 @@ class Instrument {
   /// open, with the error they are predicted to make. Realtime: no.
   virtual std::vector<std::string> notes() const { return {}; }
 
-  /// True if every displacement, and what every guarded link may spend, is a finite number.
+  /// True if every displacement, and what every energy-stable link may spend, is a finite number.
   /// Realtime: yes. Cost: O(modules + links)
   virtual bool isFinite() const noexcept = 0;
 

@@ -39,10 +39,10 @@ double stringKappa(const Scene& scene, const StringInfo& string, double rate_hz)
 /// h Z/M of the links of a generated string.
 double stringZeta(const Scene& scene, const StringInfo& string, double rate_hz);
 
-constexpr double kStiffestInTune = 0.25;  ///< r h^2 K/M of guarded links
+constexpr double kStiffestInTune = 0.25;  ///< r h^2 K/M of energy-stable links
 
 /// False if the string moves lengthwise and is flat, by up to some hundred cents: above
-/// r h^2 K/M = 1/4 guarded links look ahead to stay stable, which takes from what they hold
+/// r h^2 K/M = 1/4 energy-stable links look ahead to stay stable, which takes from what they hold
 /// (docs/physics/schemes.md, "Energy-stable links").
 bool holdsPitch(const Scene& scene, const StringInfo& string, double rate_hz);
 

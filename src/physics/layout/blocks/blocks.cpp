@@ -19,7 +19,7 @@ namespace {
 constexpr double kLanesFilled = 0.4;
 constexpr double kRegularShare = 0.75;
 constexpr double kDiagonalShare = 0.2;
-constexpr int kMostDiagonals = 2 * kMaxDiagonals;
+constexpr int kMaxMergedDiagonals = 2 * kMaxDiagonals;
 constexpr int kSmallest = 12;
 constexpr int kSmallestSparse = 24;
 
@@ -129,7 +129,7 @@ class Finder {
     ordered.offsets.clear();
     int kept = 0;
     for (const OffsetCount& count : offsetsOf(scene_, component, places_)) {
-      if (static_cast<int>(ordered.offsets.size()) < kMostDiagonals &&
+      if (static_cast<int>(ordered.offsets.size()) < kMaxMergedDiagonals &&
           count.links >= kDiagonalShare * elements) {
         ordered.offsets.push_back(count.offset);
         kept += count.links;

@@ -6,7 +6,7 @@
 namespace ergotic::scene {
 namespace {
 
-constexpr Limits kPartialLimits{"", 1.0, kMostPartials};
+constexpr Limits kPartialLimits{"", 1.0, kMaxPartials};
 
 int partialOf(const SceneBuilder& builder, const Node& node, const std::string& what, Place place) {
   const double partial = numberOf(builder, node, what, kPartialLimits, place);

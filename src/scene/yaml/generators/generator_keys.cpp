@@ -20,7 +20,7 @@ double readRestLengthRatio(const SceneBuilder& builder, const YamlMap& map, int 
 }
 
 Scheme schemeAskedFor(SceneBuilder& builder, const YamlMap& map) {
-  constexpr Scheme kSchemes[] = {Scheme::kAuto, Scheme::kExplicit, Scheme::kGuarded};
+  constexpr Scheme kSchemes[] = {Scheme::kAuto, Scheme::kExplicit, Scheme::kEnergyStable};
   if (!map.has("scheme")) {
     return Scheme::kAuto;
   }
@@ -34,7 +34,7 @@ Scheme schemeAskedFor(SceneBuilder& builder, const YamlMap& map) {
       })) {
     builder.warn(map.placeAt("scheme"), told);
   }
-  return Scheme::kGuarded;
+  return Scheme::kEnergyStable;
 }
 
 Scheme readScheme(SceneBuilder& builder,
@@ -47,7 +47,7 @@ Scheme readScheme(SceneBuilder& builder,
   if (rest_length_ratio > 0.0 || is_damped) {
     return scheme;
   }
-  if (scheme == Scheme::kGuarded) {
+  if (scheme == Scheme::kEnergyStable) {
     map.fail("scheme",
              "'scheme' of " + map.what() +
                  " is energy-stable, but all of it is linear, allowed: auto, explicit, or "

@@ -12,7 +12,7 @@ const Section& sectionAt(const SceneBuilder& builder, int index);
 double readRestLengthRatio(const SceneBuilder& builder, const YamlMap& map, int section);
 
 /// The scheme that the key `scheme` asks for, kAuto without it. Scenes of earlier versions say
-/// `guarded` for `energy_stable`; that is read, with one warning for the whole scene.
+/// `energy_stable` for `energy_stable`; that is read, with one warning for the whole scene.
 Scheme schemeAskedFor(SceneBuilder& builder, const YamlMap& map);
 
 /// Reads the scheme of links with a rest length, or with a damper in a plane or space; other links

@@ -13,8 +13,8 @@
 namespace ergotic::scene {
 namespace {
 
-constexpr std::size_t kMostRows = 400;
-constexpr std::size_t kMostPlaces = 64;
+constexpr std::size_t kMaxRows = 400;
+constexpr std::size_t kMaxPlaces = 64;
 constexpr std::size_t kColumns = 3;  // before the weights
 constexpr Limits kWavesLimits{"", -12.0, 12.0};
 constexpr Limits kPartialRatioLimits{"", 0.0, 1000.0, true};
@@ -25,7 +25,7 @@ std::vector<std::string> readPlaceNames(const SceneBuilder& builder, const YamlM
     return names;
   }
   const Node& list = map.at("places");
-  if (!list.isList() || list.size() < 1 || list.size() > kMostPlaces) {
+  if (!list.isList() || list.size() < 1 || list.size() > kMaxPlaces) {
     map.fail("places", "'places' of " + map.what() + " is " + kindOf(list) +
                            ", allowed: a list of 1...64 names");
   }
@@ -110,13 +110,13 @@ RowList readRows(const PointFiles::File& file, double pitch_hz, std::size_t plac
     if (csv.isHeader()) {
       continue;
     }
-    if (rows.size() == kMostRows) {
-      csv.fail(0, "too many partials, allowed: 1..." + std::to_string(kMostRows));
+    if (rows.size() == kMaxRows) {
+      csv.fail(0, "too many partials, allowed: 1..." + std::to_string(kMaxRows));
     }
     rows.push_back(readRow(csv, pitch_hz, places));
   }
   if (rows.empty()) {
-    csv.failAtLine("the list has no partials, allowed: 1..." + std::to_string(kMostRows));
+    csv.failAtLine("the list has no partials, allowed: 1..." + std::to_string(kMaxRows));
   }
   return rows;
 }
@@ -127,7 +127,7 @@ std::vector<Partial> readList(const SceneBuilder& builder,
                               const Node& rows,
                               double pitch_hz,
                               std::size_t places) {
-  if (!rows.isList() || rows.size() < 1 || rows.size() > kMostRows) {
+  if (!rows.isList() || rows.size() < 1 || rows.size() > kMaxRows) {
     map.fail("partials", "'partials' of " + map.what() + " is " + kindOf(rows) +
                              ", allowed: a list of 1...400 rows [frequency, t60, mass, ...], or "
                              "{file: name.csv}");
@@ -174,7 +174,7 @@ RingShape readRing(const SceneBuilder& builder, const YamlMap& map, std::size_t 
   RingShape shape;
   shape.radius = ring.number("radius", kSpacingLimits);
   shape.height = ring.number("height", kMetreLimits, 0.0);
-  shape.waves = ring.integers("waves", 1, kMostRows, kWavesLimits);
+  shape.waves = ring.integers("waves", 1, kMaxRows, kWavesLimits);
   if (shape.waves.size() != partials) {
     builder.fail(ring.placeAt("waves"), "'waves' of " + ring.what() + " has " +
                                             std::to_string(shape.waves.size()) +

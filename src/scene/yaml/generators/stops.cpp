@@ -17,7 +17,7 @@ namespace {
 
 constexpr Limits kFretLimits{"", 1.0, 36.0};
 constexpr Limits kHeightLimits{"m", 0.0};
-constexpr std::size_t kMostStrings = 64;
+constexpr std::size_t kMaxStrings = 64;
 
 /// A string or bar by its name.
 int readRow(const SceneBuilder& builder, const YamlMap& map, const std::string& name, Place place) {
@@ -85,7 +85,7 @@ void readBridge(SceneBuilder& builder, const std::string& name, const YamlMap& m
   spec.name = name;
   spec.place = map.placeAt("name");
   const Node& strings = map.at("of");
-  if (!strings.isList() || strings.size() < 1 || strings.size() > kMostStrings) {
+  if (!strings.isList() || strings.size() < 1 || strings.size() > kMaxStrings) {
     map.fail("of", "'of' of " + map.what() + " is " + kindOf(strings) +
                        ", allowed: a list of 1...64 strings");
   }

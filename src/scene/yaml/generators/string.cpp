@@ -14,7 +14,7 @@
 namespace ergotic::scene {
 namespace {
 
-constexpr double kMostBodyMasses = 2000.0;
+constexpr double kMaxBodyMasses = 2000.0;
 constexpr Limits kImpedanceLimits{"N s/m", 0.0, kInfinity, true};
 constexpr Limits kTensionLimits{"N", 0.0, kInfinity, true};
 constexpr Limits kInharmonicityLimits{"", 0.0, 0.1};
@@ -122,7 +122,7 @@ void readStringBody(SceneBuilder& builder, const std::string& name, const YamlMa
   spec.place = map.placeAt("name");
   spec.section = bodySection(builder, map);
   const BodyForm form = readBodyForm(builder, map, false);
-  spec.masses = readCount(map, "masses", {"", 1.0, kMostBodyMasses}, form, kMassesOfModes);
+  spec.masses = readCount(map, "masses", {"", 1.0, kMaxBodyMasses}, form, kMassesOfModes);
   spec.wish = readBodyWish(builder, map);
   if (map.has("inharmonicity")) {
     spec.wish->inharmonicity = map.number("inharmonicity", kInharmonicityLimits);

@@ -158,7 +158,7 @@ TEST_F(BlocksTest, LinksThatFollowAudioOrAreNotLinearStayOneByOne) {
   b.scene.audio_parameters.push_back({"audio", 0, 1.0, {}});
   b.scene.lias[30].stiffness.audio = 0;
   const int contact = b.link(scene::LiaType::kContact, first + 10, first + 70, 500.0);
-  b.scene.lias[at(contact)].scheme = scene::Scheme::kGuarded;
+  b.scene.lias[at(contact)].scheme = scene::Scheme::kEnergyStable;
   const int cubic = b.link(scene::LiaType::kCubic, first + 20, first + 60, 500.0);
   b.scene.lias[at(cubic)].law.edit().nonlinearity = {1e8};
   for (const Block& block : findBlocks(b.scene)) {

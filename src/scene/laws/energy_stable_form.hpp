@@ -12,7 +12,7 @@
 namespace ergotic::scene {
 
 template <class Real>
-struct GuardedForce {
+struct EnergyStableForce {
   Real force = Real(0);
   Real slope = Real(0);
 };
@@ -20,17 +20,17 @@ struct GuardedForce {
 /// A table as pieces of polynomials with its integral, and a straight line beside it. A default one
 /// is 0 everywhere.
 template <class Real>
-class GuardedCurve {
+class EnergyStableCurve {
  public:
-  GuardedCurve() = default;
+  EnergyStableCurve() = default;
   /// \param holds  beyond its ends it keeps its last value; otherwise it is 0 there
-  GuardedCurve(const Curve& curve, bool holds);
+  EnergyStableCurve(const Curve& curve, bool holds);
   /// \param at_0, slope  of a line, which goes on beyond the ends of the curve; that may be empty
-  GuardedCurve(const Curve& curve, double at_0, double slope);
+  EnergyStableCurve(const Curve& curve, double at_0, double slope);
 
   bool empty() const noexcept { return pieces_.empty(); }
   /// Realtime: yes. Cost: O(log pieces)
-  GuardedForce<Real> at(Real x) const noexcept;
+  EnergyStableForce<Real> at(Real x) const noexcept;
   /// Integral over x, at its lowest 0 if it has a lowest value. Realtime: yes. O(log pieces)
   Real potential(Real x) const noexcept;
   Real steepest() const noexcept { return steepest_; }  ///< the largest slope between its ends
@@ -53,21 +53,21 @@ class GuardedCurve {
 };
 
 template <class Real>
-struct GuardedLaw;
+struct EnergyStableLaw;
 
-/// How a law is worked out in the guarded scheme: of `Real` numbers. Elastic laws give the force
-/// f(p) over compression (contacts) or elongation p; friction laws give the force F(v) over the
-/// slip v, m per step. What a sort does not need is null.
+/// How a law is worked out in the energy-stable scheme: of `Real` numbers. Elastic laws give the
+/// force f(p) over compression (contacts) or elongation p; friction laws give the force F(v) over
+/// the slip v, m per step. What a sort does not need is null.
 template <class Real>
-struct GuardedForm {
+struct EnergyStableForm {
   enum class Sort {
     kContact,   ///< pushes while p > 0 and lets go beyond
     kSpring,    ///< two-sided
     kFriction,  ///< over velocity alone
     kDry,       ///< friction per normal force, which sticks
   };
-  using Number = Real (*)(const GuardedLaw<Real>&, Real) noexcept;
-  using ForceAt = GuardedForce<Real> (*)(const GuardedLaw<Real>&, Real) noexcept;
+  using Number = Real (*)(const EnergyStableLaw<Real>&, Real) noexcept;
+  using ForceAt = EnergyStableForce<Real> (*)(const EnergyStableLaw<Real>&, Real) noexcept;
 
   Sort sort;
   ForceAt push;               ///< f(p) and f'(p)
@@ -75,24 +75,25 @@ struct GuardedForm {
   Number potential_integral;  ///< contacts: integral of the potential from 0 to p > 0
   Number curvature;           ///< contacts: f''(p)
   /// Z >= 0 at p; v is the velocity of p per step.
-  Real (*damping)(const GuardedLaw<Real>&, Real p, Real v) noexcept;
+  Real (*damping)(const EnergyStableLaw<Real>&, Real p, Real v) noexcept;
   ForceAt slip;  ///< F(v) and F'(v) of friction; dry: mu(v) and mu'(v), v >= 0
   /// Springs that let go: what they remember at p, of what they did; above 0 they hold, from there
   /// to 0 they let go. Null: they always hold.
-  Real (*phase)(const GuardedLaw<Real>&, Real p, Real last) noexcept;
-  Real (*snap)(const GuardedLaw<Real>&) noexcept;  ///< what they lose where they let go
+  Real (*phase)(const EnergyStableLaw<Real>&, Real p, Real last) noexcept;
+  Real (*snap)(const EnergyStableLaw<Real>&) noexcept;  ///< what they lose where they let go
   /// Contacts: ratio of the speeds after and before an impact at `speed` per step with the damping
   /// z and the slope of the moment. `give`: opening per force.
-  Real (*restitution)(const GuardedLaw<Real>&, Real z, Real slope, Real give, Real speed) noexcept;
+  Real (*restitution)(
+      const EnergyStableLaw<Real>&, Real z, Real slope, Real give, Real speed) noexcept;
   bool is_lossy;  ///< contacts: f (1 + damping v) is the law, and it never pulls
 };
 
-struct GuardedForms {
-  GuardedForm<float> single_form;
-  GuardedForm<double> double_form;
+struct EnergyStableForms {
+  EnergyStableForm<float> single_form;
+  EnergyStableForm<double> double_form;
 
   template <class Real>
-  const GuardedForm<Real>& get() const noexcept {
+  const EnergyStableForm<Real>& get() const noexcept {
     if constexpr (sizeof(Real) == sizeof(float)) {
       return single_form;
     } else {
@@ -101,11 +102,11 @@ struct GuardedForms {
   }
 };
 
-/// The law of one guarded link: numbers of one step, and its tables. Damping is force per m per
-/// step. Source: docs/physics/elements.md, "Links" and schemes.md, "Energy-stable links".
+/// The law of one energy-stable link: numbers of one step, and its tables. Damping is force per m
+/// per step. Source: docs/physics/elements.md, "Links" and schemes.md, "Energy-stable links".
 template <class Real>
-struct GuardedLaw {
-  const GuardedForm<Real>* form = nullptr;
+struct EnergyStableLaw {
+  const EnergyStableForm<Real>* form = nullptr;
   Real stiffness = Real(0);
   Real damping = Real(0);
   Real nonlinearity = Real(0);
@@ -121,21 +122,21 @@ struct GuardedLaw {
   Real steady = Real(0);    ///< mu far from rest
   Real share[2] = {Real(0), Real(0)};      ///< parts of mu that fall
   Real per_width[2] = {Real(0), Real(0)};  ///< 1 over the slip in which they fall by e
-  GuardedCurve<Real> table;                ///< elastic
-  GuardedCurve<Real> viscous;              ///< over velocity
+  EnergyStableCurve<Real> table;           ///< elastic
+  EnergyStableCurve<Real> viscous;         ///< over velocity
 
-  static GuardedLaw make(const Scene& scene, const Lia& lia, const Units& units);
+  static EnergyStableLaw make(const Scene& scene, const Lia& lia, const Units& units);
   /// Takes the tables of a law in parts, beside which a spring K (e - width) may act.
   void takeParts(const Scene& scene, const Lia& lia);
   /// Takes all numbers again from the present values in `scene`; tables stay. Realtime: yes
   void update(const Scene& scene, const Lia& lia, const Units& units) noexcept;
 
-  bool isContact() const noexcept { return form->sort == GuardedForm<Real>::Sort::kContact; }
-  bool isFriction() const noexcept { return form->sort == GuardedForm<Real>::Sort::kFriction; }
-  bool isDry() const noexcept { return form->sort == GuardedForm<Real>::Sort::kDry; }
+  bool isContact() const noexcept { return form->sort == EnergyStableForm<Real>::Sort::kContact; }
+  bool isFriction() const noexcept { return form->sort == EnergyStableForm<Real>::Sort::kFriction; }
+  bool isDry() const noexcept { return form->sort == EnergyStableForm<Real>::Sort::kDry; }
 
   /// f(p) and f'(p) of the elastic laws. \pre p > 0 for contacts. Realtime: yes
-  GuardedForce<Real> push(Real p) const noexcept { return form->push(*this, p); }
+  EnergyStableForce<Real> push(Real p) const noexcept { return form->push(*this, p); }
   /// Mean of f over the steps before and after p, which is passed at w per step, with the weight
   /// 1 - |t|: the impulse that a motion at constant velocity would get. Contacts only.
   /// Realtime: yes
@@ -145,14 +146,14 @@ struct GuardedLaw {
     return form->potential == nullptr ? Real(0) : form->potential(*this, p);
   }
   Real dampingAt(Real p, Real v) const noexcept { return form->damping(*this, p, v); }
-  GuardedForce<Real> slip(Real v) const noexcept { return form->slip(*this, v); }
+  EnergyStableForce<Real> slip(Real v) const noexcept { return form->slip(*this, v); }
 };
 
 /// The form of a contact from a `Curve<Real>` with these functions.
 template <class Curve, class Real>
-constexpr GuardedForm<Real> contactForm() {
-  GuardedForm<Real> form{};
-  form.sort = GuardedForm<Real>::Sort::kContact;
+constexpr EnergyStableForm<Real> contactForm() {
+  EnergyStableForm<Real> form{};
+  form.sort = EnergyStableForm<Real>::Sort::kContact;
   form.push = Curve::push;
   form.potential = Curve::potential;
   form.potential_integral = Curve::potentialIntegral;
@@ -164,9 +165,9 @@ constexpr GuardedForm<Real> contactForm() {
 }
 /// The form of a two-sided spring.
 template <class Curve, class Real>
-constexpr GuardedForm<Real> springForm() {
-  GuardedForm<Real> form{};
-  form.sort = GuardedForm<Real>::Sort::kSpring;
+constexpr EnergyStableForm<Real> springForm() {
+  EnergyStableForm<Real> form{};
+  form.sort = EnergyStableForm<Real>::Sort::kSpring;
   form.push = Curve::push;
   form.potential = Curve::potential;
   form.damping = Curve::damping;
@@ -174,64 +175,64 @@ constexpr GuardedForm<Real> springForm() {
 }
 /// Of one that lets go.
 template <class Curve, class Real>
-constexpr GuardedForm<Real> snappingForm() {
-  GuardedForm<Real> form = springForm<Curve, Real>();
+constexpr EnergyStableForm<Real> snappingForm() {
+  EnergyStableForm<Real> form = springForm<Curve, Real>();
   form.phase = Curve::phase;
   form.snap = Curve::snap;
   return form;
 }
 /// Of friction.
 template <class Curve, class Real>
-constexpr GuardedForm<Real> frictionForm() {
-  GuardedForm<Real> form{};
-  form.sort = GuardedForm<Real>::Sort::kFriction;
+constexpr EnergyStableForm<Real> frictionForm() {
+  EnergyStableForm<Real> form{};
+  form.sort = EnergyStableForm<Real>::Sort::kFriction;
   form.slip = Curve::slip;
   return form;
 }
 
 template <template <class> class Curve>
-const GuardedForms& contactForms(const Lia& /*lia*/) {
-  static constexpr GuardedForms kForms = {contactForm<Curve<float>, float>(),
-                                          contactForm<Curve<double>, double>()};
+const EnergyStableForms& contactForms(const Lia& /*lia*/) {
+  static constexpr EnergyStableForms kForms = {contactForm<Curve<float>, float>(),
+                                               contactForm<Curve<double>, double>()};
   return kForms;
 }
 template <template <class> class Curve>
-const GuardedForms& springForms(const Lia& /*lia*/) {
-  static constexpr GuardedForms kForms = {springForm<Curve<float>, float>(),
-                                          springForm<Curve<double>, double>()};
+const EnergyStableForms& springForms(const Lia& /*lia*/) {
+  static constexpr EnergyStableForms kForms = {springForm<Curve<float>, float>(),
+                                               springForm<Curve<double>, double>()};
   return kForms;
 }
 template <template <class> class Curve>
-const GuardedForms& snappingForms(const Lia& /*lia*/) {
-  static constexpr GuardedForms kForms = {snappingForm<Curve<float>, float>(),
-                                          snappingForm<Curve<double>, double>()};
+const EnergyStableForms& snappingForms(const Lia& /*lia*/) {
+  static constexpr EnergyStableForms kForms = {snappingForm<Curve<float>, float>(),
+                                               snappingForm<Curve<double>, double>()};
   return kForms;
 }
 template <template <class> class Curve>
-const GuardedForms& frictionForms(const Lia& /*lia*/) {
-  static constexpr GuardedForms kForms = {frictionForm<Curve<float>, float>(),
-                                          frictionForm<Curve<double>, double>()};
+const EnergyStableForms& frictionForms(const Lia& /*lia*/) {
+  static constexpr EnergyStableForms kForms = {frictionForm<Curve<float>, float>(),
+                                               frictionForm<Curve<double>, double>()};
   return kForms;
 }
 
 /// Ratio of the speeds after and before an impact of an oscillator with this damper.
 template <class Real>
 Real damperRestitution(
-    const GuardedLaw<Real>& law, Real z, Real slope, Real give, Real speed) noexcept;
+    const EnergyStableLaw<Real>& law, Real z, Real slope, Real give, Real speed) noexcept;
 
 /// Z of a law that has one number for it.
 template <class Real>
 struct PlainDamping {
-  ERGOTIC_REALTIME static Real damping(const GuardedLaw<Real>& law, Real, Real) noexcept {
+  ERGOTIC_REALTIME static Real damping(const EnergyStableLaw<Real>& law, Real, Real) noexcept {
     return law.damping > Real(0) ? law.damping : Real(0);
   }
   static constexpr auto restitution = damperRestitution<Real>;
   static constexpr bool kIsLossy = false;
 };
 
-extern template class GuardedCurve<float>;
-extern template class GuardedCurve<double>;
-extern template struct GuardedLaw<float>;
-extern template struct GuardedLaw<double>;
+extern template class EnergyStableCurve<float>;
+extern template class EnergyStableCurve<double>;
+extern template struct EnergyStableLaw<float>;
+extern template struct EnergyStableLaw<double>;
 
 }  // namespace ergotic::scene

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "scene/laws/guarded_form.hpp"
+#include "scene/laws/energy_stable_form.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -28,14 +28,14 @@ Curve sum(Curve curve, double at_0, double slope) {
 }  // namespace
 
 template <class Real>
-GuardedCurve<Real>::GuardedCurve(const Curve& curve, double at_0, double slope)
-    : GuardedCurve(sum(curve, at_0, slope), true) {
+EnergyStableCurve<Real>::EnergyStableCurve(const Curve& curve, double at_0, double slope)
+    : EnergyStableCurve(sum(curve, at_0, slope), true) {
   beyond_ = static_cast<Real>(slope);
   sinkToFloor();
 }
 
 template <class Real>
-GuardedCurve<Real>::GuardedCurve(const Curve& curve, bool holds)
+EnergyStableCurve<Real>::EnergyStableCurve(const Curve& curve, bool holds)
     : end_(static_cast<Real>(curve.end)),
       end_value_(static_cast<Real>(curve.end_value)),
       steepest_(static_cast<Real>(curve.largest_slope)),
@@ -56,7 +56,7 @@ GuardedCurve<Real>::GuardedCurve(const Curve& curve, bool holds)
 /// The bottom of the well lies at an end of a piece or where the force crosses 0 upwards, beyond
 /// the ends too if it rises there.
 template <class Real>
-void GuardedCurve<Real>::sinkToFloor() {
+void EnergyStableCurve<Real>::sinkToFloor() {
   const auto bottom = [this](Real from, Real outwards) {
     return from - (outwards > Real(0) && beyond_ > Real(0)
                        ? outwards * outwards / (Real(2) * beyond_)
@@ -83,12 +83,12 @@ void GuardedCurve<Real>::sinkToFloor() {
 }
 
 template <class Real>
-Real GuardedCurve<Real>::integral(const Piece& p, Real u) noexcept {
+Real EnergyStableCurve<Real>::integral(const Piece& p, Real u) noexcept {
   return u * (p.c0 + u * (p.c1 / Real(2) + u * (p.c2 / Real(3) + u * p.c3 / Real(4))));
 }
 
 template <class Real>
-ERGOTIC_REALTIME const typename GuardedCurve<Real>::Piece& GuardedCurve<Real>::pieceOf(
+ERGOTIC_REALTIME const typename EnergyStableCurve<Real>::Piece& EnergyStableCurve<Real>::pieceOf(
     Real x) const noexcept {
   std::size_t low = 0;
   std::size_t high = pieces_.size();
@@ -100,7 +100,7 @@ ERGOTIC_REALTIME const typename GuardedCurve<Real>::Piece& GuardedCurve<Real>::p
 }
 
 template <class Real>
-ERGOTIC_REALTIME GuardedForce<Real> GuardedCurve<Real>::at(Real x) const noexcept {
+ERGOTIC_REALTIME EnergyStableForce<Real> EnergyStableCurve<Real>::at(Real x) const noexcept {
   if (pieces_.empty()) {
     return {};
   }
@@ -117,7 +117,7 @@ ERGOTIC_REALTIME GuardedForce<Real> GuardedCurve<Real>::at(Real x) const noexcep
 }
 
 template <class Real>
-ERGOTIC_REALTIME Real GuardedCurve<Real>::potential(Real x) const noexcept {
+ERGOTIC_REALTIME Real EnergyStableCurve<Real>::potential(Real x) const noexcept {
   if (pieces_.empty()) {
     return Real(0);
   }
@@ -129,15 +129,17 @@ ERGOTIC_REALTIME Real GuardedCurve<Real>::potential(Real x) const noexcept {
 }
 
 template <class Real>
-GuardedLaw<Real> GuardedLaw<Real>::make(const Scene& scene, const Lia& lia, const Units& units) {
+EnergyStableLaw<Real> EnergyStableLaw<Real>::make(const Scene& scene,
+                                                  const Lia& lia,
+                                                  const Units& units) {
   const Law& told = lawOf(lia.type);
-  GuardedLaw law;
-  law.form = &told.guarded(lia).template get<Real>();
+  EnergyStableLaw law;
+  law.form = &told.energy_stable(lia).template get<Real>();
   if (told.tables == Law::Tables::kParts) {
     law.takeParts(scene, lia);
   } else if (!lia.law->table.empty()) {
     (law.isFriction() || law.isDry() ? law.viscous : law.table) =
-        GuardedCurve<Real>(interpolate(lia.law->table), law.isDry());
+        EnergyStableCurve<Real>(interpolate(lia.law->table), law.isDry());
   }
   law.update(scene, lia, units);
   return law;
@@ -145,22 +147,22 @@ GuardedLaw<Real> GuardedLaw<Real>::make(const Scene& scene, const Lia& lia, cons
 
 /// Splits the viscous table: its force at rest is constant, so elastic; the rest is a brake.
 template <class Real>
-void GuardedLaw<Real>::takeParts(const Scene& scene, const Lia& lia) {
+void EnergyStableLaw<Real>::takeParts(const Scene& scene, const Lia& lia) {
   const auto curveOf = [](const Table& of) { return of.empty() ? Curve{} : interpolate(of); };
   const Curve lossy = curveOf(lia.law->viscous_table);
   const double at_rest = forceAtRest(lia);
   const double slope = scene.valueOf(lia.stiffness);
   const double shift = at_rest - slope * scene.valueOf(lia.law->width);
-  table = GuardedCurve<Real>(curveOf(lia.law->table), shift, slope);
+  table = EnergyStableCurve<Real>(curveOf(lia.law->table), shift, slope);
   if (!lossy.pieces.empty()) {
-    viscous = GuardedCurve<Real>(lossy, -at_rest, 0.0);
+    viscous = EnergyStableCurve<Real>(lossy, -at_rest, 0.0);
   }
 }
 
 template <class Real>
-ERGOTIC_REALTIME void GuardedLaw<Real>::update(const Scene& scene,
-                                               const Lia& lia,
-                                               const Units& units) noexcept {
+ERGOTIC_REALTIME void EnergyStableLaw<Real>::update(const Scene& scene,
+                                                    const Lia& lia,
+                                                    const Units& units) noexcept {
   const auto real = [](double value) { return static_cast<Real>(value); };
   const double z = units.damping(scene.valueOf(lia.damping));
   stiffness = real(scene.valueOf(lia.stiffness));
@@ -186,14 +188,14 @@ ERGOTIC_REALTIME void GuardedLaw<Real>::update(const Scene& scene,
 namespace {
 
 template <class Real>
-ERGOTIC_REALTIME Real potentialIntegralOf(const GuardedLaw<Real>& law, Real p) noexcept {
+ERGOTIC_REALTIME Real potentialIntegralOf(const EnergyStableLaw<Real>& law, Real p) noexcept {
   return p > Real(0) ? law.form->potential_integral(law, p) : Real(0);
 }
 
 }  // namespace
 
 template <class Real>
-ERGOTIC_REALTIME Real GuardedLaw<Real>::meanPush(Real p, Real w) const noexcept {
+ERGOTIC_REALTIME Real EnergyStableLaw<Real>::meanPush(Real p, Real w) const noexcept {
   // Slower than that the cubes below vanish.
   constexpr Real kStill = Real(sizeof(Real) == sizeof(float) ? 1e-12 : 1e-100);
   const Real step = std::abs(w);
@@ -214,17 +216,18 @@ ERGOTIC_REALTIME Real GuardedLaw<Real>::meanPush(Real p, Real w) const noexcept 
 
 template <class Real>
 ERGOTIC_REALTIME Real
-damperRestitution(const GuardedLaw<Real>&, Real z, Real slope, Real give, Real) noexcept {
+damperRestitution(const EnergyStableLaw<Real>&, Real z, Real slope, Real give, Real) noexcept {
   const Real r = z * std::sqrt(give / slope) / Real(2);
   return r < Real(1) ? std::exp(-static_cast<Real>(kPi) * r / std::sqrt(Real(1) - r * r)) : Real(0);
 }
 
-template float damperRestitution(const GuardedLaw<float>&, float, float, float, float) noexcept;
+template float damperRestitution(
+    const EnergyStableLaw<float>&, float, float, float, float) noexcept;
 template double damperRestitution(
-    const GuardedLaw<double>&, double, double, double, double) noexcept;
-template class GuardedCurve<float>;
-template class GuardedCurve<double>;
-template struct GuardedLaw<float>;
-template struct GuardedLaw<double>;
+    const EnergyStableLaw<double>&, double, double, double, double) noexcept;
+template class EnergyStableCurve<float>;
+template class EnergyStableCurve<double>;
+template struct EnergyStableLaw<float>;
+template struct EnergyStableLaw<double>;
 
 }  // namespace ergotic::scene

@@ -5,23 +5,23 @@
 #include <vector>
 
 #include "physics/laws/dry_friction.hpp"
-#include "physics/laws/guarded_force.hpp"
+#include "physics/laws/energy_stable_force.hpp"
 
 namespace ergotic::physics {
 
-/// One coordinate of a module on which a guarded link acts, directly or through points.
-struct GuardedTerm {
+/// One coordinate of a module on which an energy-stable link acts, directly or through points.
+struct EnergyStableTerm {
   int slot = 0;                  ///< slot of the coordinate
   int module = 0;                ///< slot of the module's first coordinate
   int component = 0;             ///< 0 x, 1 y, 2 z
   double weight[3] = {1, 0, 0};  ///< weight in each coordinate of end a less end b
   int slow_section = -1;         ///< section of the module, if it is slower than the link
-  bool is_tap = false;           ///< its next step is in GuardedView::ahead
+  bool is_tap = false;           ///< its next step is in EnergyStableView::ahead
 };
 
-struct GuardedLink {
+struct EnergyStableLink {
   int dimensions = 0;  ///< 0: scalar; otherwise it works along the line that joins its ends
-  std::vector<GuardedTerm> terms;
+  std::vector<EnergyStableTerm> terms;
   double offset[3] = {0, 0, 0};  ///< end a less end b while all displacements are 0, m
   bool sticks = false;           ///< friction that comes after all others
   double share = 1.0;            ///< part of the step of a slower end in one step of the link
@@ -40,7 +40,7 @@ struct Pressure {
 
 /// The modules as links see them within a step; `f`: forces of everything else.
 template <class Real>
-struct GuardedView {
+struct EnergyStableView {
   const Real* x = nullptr;
   const Real* d = nullptr;  ///< x[n] - x[n-1]
   const Real* f = nullptr;
@@ -55,9 +55,9 @@ struct GuardedView {
   const Pressure<Real>* pressed = nullptr;  ///< [links]
 };
 
-/// A module as the guarded links on it see it.
+/// A module as the energy-stable links on it see it.
 template <class Real>
-struct GuardedModule {
+struct EnergyStableModule {
   Real links = Real(0);                        // c, those that are active
   Real last[3] = {Real(0), Real(0), Real(0)};  // sum of their forces in the last step
   Real load[3] = {Real(0), Real(0), Real(0)};  // and in this one
@@ -76,49 +76,50 @@ struct GuardedModule {
 /// comes after all others, one after the other: each knows what those before it have done. Source:
 /// docs/physics/schemes.md, "Energy-stable links".
 template <class Real>
-class GuardedLinks {
+class EnergyStableLinks {
  public:
   /// \param modules  [slots] all zero between steps; those who share no modules may share it.
   /// Realtime: no
-  GuardedLinks(const std::vector<GuardedLink>& links, std::vector<GuardedModule<Real>>& modules);
+  EnergyStableLinks(const std::vector<EnergyStableLink>& links,
+                    std::vector<EnergyStableModule<Real>>& modules);
 
   std::size_t size() const noexcept { return links_.size(); }
 
   /// Fills the tanks with the energy that the links hold where the modules are.
   /// \param laws, states  [size()], here and below
-  void start(const GuardedView<Real>& view,
-             const GuardedLaw<Real>* laws,
-             GuardedState<Real>* states) const noexcept;
+  void start(const EnergyStableView<Real>& view,
+             const EnergyStableLaw<Real>* laws,
+             EnergyStableState<Real>* states) const noexcept;
 
-  /// Works out the forces of this step, see GuardedState. End b receives them along the gradient,
-  /// end a against it.
-  /// \param near  the links that may have any. Realtime: yes. Cost: O(near)
+  /// Works out the forces of this step, see EnergyStableState. End b receives them along the
+  /// gradient, end a against it. \param near  the links that may have any. Realtime: yes. Cost:
+  /// O(near)
   void step(const NearLinks<Real>& near,
-            const GuardedView<Real>& view,
-            const GuardedLaw<Real>* laws,
-            GuardedState<Real>* states) noexcept;
+            const EnergyStableView<Real>& view,
+            const EnergyStableLaw<Real>* laws,
+            EnergyStableState<Real>* states) noexcept;
 
   /// How far apart the ends of a contact were in the last step, m; 0 if it does anything, or may do
   /// so though nothing moves. \pre it was near then. Realtime: yes
-  Real gapOf(std::size_t link, const GuardedState<Real>& state) const noexcept;
+  Real gapOf(std::size_t link, const EnergyStableState<Real>& state) const noexcept;
 
   /// Other laws come: their tanks follow, by work of whoever turned the knob.
   /// Realtime: yes. Cost: O(links)
-  void retune(const GuardedView<Real>& view,
-              const GuardedLaw<Real>* from,
-              const GuardedLaw<Real>* to,
-              GuardedState<Real>* states) const noexcept;
+  void retune(const EnergyStableView<Real>& view,
+              const EnergyStableLaw<Real>* from,
+              const EnergyStableLaw<Real>* to,
+              EnergyStableState<Real>* states) const noexcept;
 
   /// Other modules for a link whose end has moved along a string.
   /// \pre as many terms as it was made with. Realtime: yes. Cost: O(count^2)
   void setTerms(std::size_t link,
-                const GuardedTerm* terms,
+                const EnergyStableTerm* terms,
                 std::size_t count,
                 const double (&offset)[3]) noexcept;
 
   /// Energy stored in a link of this law where the modules are now. Realtime: yes
-  Real stored(const GuardedView<Real>& view,
-              const GuardedLaw<Real>& law,
+  Real stored(const EnergyStableView<Real>& view,
+              const EnergyStableLaw<Real>& law,
               std::size_t link) const noexcept;
 
  private:
@@ -140,8 +141,8 @@ class GuardedLinks {
     std::size_t count;
     Real offset[3];
   };
-  using Motion = GuardedMotion<Real>;
-  using Module = GuardedModule<Real>;
+  using Motion = EnergyStableMotion<Real>;
+  using Module = EnergyStableModule<Real>;
   /// Links that share masses, kept where one of them, the root, stands.
   struct Cluster {
     std::size_t parent = 0;  // towards the root
@@ -152,70 +153,70 @@ class GuardedLinks {
     Real part = Real(1);     // of all forces that the tanks can pay for
   };
 
-  bool isFree(const GuardedView<Real>& view, const Term& term) const noexcept;
-  Motion measure(const GuardedView<Real>& view,
-                 const GuardedLaw<Real>& law,
+  bool isFree(const EnergyStableView<Real>& view, const Term& term) const noexcept;
+  Motion measure(const EnergyStableView<Real>& view,
+                 const EnergyStableLaw<Real>& law,
                  const Link& link,
-                 GuardedState<Real>& state) const noexcept;
-  void place(const GuardedView<Real>& view,
-             const GuardedLaw<Real>& law,
+                 EnergyStableState<Real>& state) const noexcept;
+  void place(const EnergyStableView<Real>& view,
+             const EnergyStableLaw<Real>& law,
              const Link& link,
              Motion& motion) const noexcept;
   /// How far end a moves against end b: in the step just made, in the one to come if nothing
-  /// guarded pushes, and the part of both by modules that forces do not move.
+  /// energy-stable pushes, and the part of both by modules that forces do not move.
   struct Course {
     Real now[3] = {Real(0), Real(0), Real(0)};
     Real next[3] = {Real(0), Real(0), Real(0)};
     Real fixed_now[3] = {Real(0), Real(0), Real(0)};
     Real fixed_next[3] = {Real(0), Real(0), Real(0)};
   };
-  Course courseOf(const GuardedView<Real>& view, const Link& link) const noexcept;
-  void countActive(const GuardedView<Real>& view,
+  Course courseOf(const EnergyStableView<Real>& view, const Link& link) const noexcept;
+  void countActive(const EnergyStableView<Real>& view,
                    const Link& link,
                    const Motion& m,
                    Real last) noexcept;
-  void yieldOf(const GuardedView<Real>& view, const Link& link, Motion& m) const noexcept;
-  void expectOthers(const GuardedView<Real>& view,
+  void yieldOf(const EnergyStableView<Real>& view, const Link& link, Motion& m) const noexcept;
+  void expectOthers(const EnergyStableView<Real>& view,
                     const Link& link,
                     bool is_contact,
                     Real last,
                     Motion& m) const noexcept;
   void load(const Link& link, const Motion& m) noexcept;
   void exertOthers(const NearLinks<Real>& near,
-                   const GuardedView<Real>& view,
-                   const GuardedLaw<Real>* laws,
-                   GuardedState<Real>* states) noexcept;
-  void rub(const GuardedView<Real>& view,
-           const GuardedLaw<Real>& law,
+                   const EnergyStableView<Real>& view,
+                   const EnergyStableLaw<Real>* laws,
+                   EnergyStableState<Real>* states) noexcept;
+  void rub(const EnergyStableView<Real>& view,
+           const EnergyStableLaw<Real>& law,
            const Pressure<Real>& pressed,
            const Link& link,
            Motion& m,
-           GuardedState<Real>& state) noexcept;
-  Slide<Real> slideOf(const GuardedView<Real>& view,
+           EnergyStableState<Real>& state) noexcept;
+  Slide<Real> slideOf(const EnergyStableView<Real>& view,
                       const Pressure<Real>& pressed,
                       const Link& link,
                       Motion& m,
-                      GuardedState<Real>& state) const noexcept;
+                      EnergyStableState<Real>& state) const noexcept;
   template <class Visit>
-  void visitShares(const GuardedView<Real>& view,
+  void visitShares(const EnergyStableView<Real>& view,
                    const Link& link,
                    const Motion& m,
                    const Visit& visit) noexcept;
-  void closeRub(const GuardedView<Real>& view,
+  void closeRub(const EnergyStableView<Real>& view,
                 const Link& link,
                 const Motion& m,
-                GuardedState<Real>& state) noexcept;
+                EnergyStableState<Real>& state) noexcept;
   static Real leverOf(const Term& term, const Motion& m) noexcept;
-  void correctCharge(const GuardedView<Real>& view,
+  void correctCharge(const EnergyStableView<Real>& view,
                      const Link& link,
                      Motion& m,
-                     GuardedState<Real>& state) const noexcept;
+                     EnergyStableState<Real>& state) const noexcept;
   std::size_t rootOf(std::size_t link) noexcept;
-  void joinThoseThatShare(const NearLinks<Real>& near, const GuardedView<Real>& view) noexcept;
+  void joinThoseThatShare(const NearLinks<Real>& near, const EnergyStableView<Real>& view) noexcept;
   void settleDebts(const NearLinks<Real>& near,
-                   const GuardedView<Real>& view,
-                   GuardedState<Real>* states) noexcept;
-  void weaken(const Link& link, Real part, Motion& m, GuardedState<Real>& state) noexcept;
+                   const EnergyStableView<Real>& view,
+                   EnergyStableState<Real>* states) noexcept;
+  void weaken(const Link& link, Real part, Motion& m, EnergyStableState<Real>& state) noexcept;
 
   std::vector<Link> links_;
   std::vector<std::size_t> sticking_;
@@ -225,7 +226,7 @@ class GuardedLinks {
   std::vector<Module>& modules_;
 };
 
-extern template class GuardedLinks<float>;
-extern template class GuardedLinks<double>;
+extern template class EnergyStableLinks<float>;
+extern template class EnergyStableLinks<double>;
 
 }  // namespace ergotic::physics

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Guarded contacts and springs as they are heard, against closed forms and the explicit ones.
+// Energy-stable contacts and springs as they are heard, against closed forms and the explicit ones.
 #include <random>
 
 #include "support/physics.hpp"
@@ -86,50 +86,51 @@ Errors rmsOf(const Impact& impact, Scheme scheme) {
 
 /// The force at first touch jumps in its slope between two samples: only the mean of the law over
 /// the step knows when.
-TEST(GuardedTest, ContactLastsAndReboundsAsInClosedForm) {
+TEST(EnergyStableTest, ContactLastsAndReboundsAsInClosedForm) {
   for (const double a : {1.0, 1.5, 2.3, 3.0}) {
-    const Errors guarded = rmsOf(Impact(a, kRate), Scheme::kGuarded);
-    EXPECT_LT(guarded.duration, 2e-5) << a;
-    EXPECT_LT(guarded.rebound, 1e-12) << a;
+    const Errors energy_stable = rmsOf(Impact(a, kRate), Scheme::kEnergyStable);
+    EXPECT_LT(energy_stable.duration, 2e-5) << a;
+    EXPECT_LT(energy_stable.rebound, 1e-12) << a;
     const Errors plain = rmsOf(Impact(a, kRate), Scheme::kExplicit);
     EXPECT_LT(plain.duration, 5e-4) << a;
     EXPECT_LT(plain.rebound, 5e-4) << a;
-    EXPECT_GT(plain.duration, 20.0 * guarded.duration) << a;
+    EXPECT_GT(plain.duration, 20.0 * energy_stable.duration) << a;
   }
 }
 
 /// Samples miss the peak, and the mean of the law over two steps is below it.
-TEST(GuardedTest, LargestForceThatActsIsThatOfTheDocumentation) {
+TEST(EnergyStableTest, LargestForceThatActsIsThatOfTheDocumentation) {
   constexpr struct {
     double exponent;
     double plain;
-    double guarded;
+    double energy_stable;
   } kRows[] = {
       {1.0, 3.7e-4, 6.6e-4}, {1.5, 3.4e-4, 1.1e-3}, {2.3, 5.5e-4, 1.9e-3}, {3.0, 7.9e-4, 2.8e-3}};
   for (const auto& row : kRows) {
     const Impact impact(row.exponent, kRate);
     EXPECT_NEAR(rmsOf(impact, Scheme::kExplicit).peak / row.plain, 1.0, 0.03) << row.exponent;
-    EXPECT_NEAR(rmsOf(impact, Scheme::kGuarded).peak / row.guarded, 1.0, 0.03) << row.exponent;
+    EXPECT_NEAR(rmsOf(impact, Scheme::kEnergyStable).peak / row.energy_stable, 1.0, 0.03)
+        << row.exponent;
   }
 }
 
-TEST(GuardedTest, ContactOfFiveSamplesStillReboundsExactly) {
+TEST(EnergyStableTest, ContactOfFiveSamplesStillReboundsExactly) {
   for (const double a : {1.0, 1.5, 2.3, 3.0}) {
-    const Errors guarded = rmsOf(Impact(a, 5512.5), Scheme::kGuarded);
-    EXPECT_LT(guarded.duration, 4e-3) << a;
-    EXPECT_LT(guarded.rebound, 1e-12) << a;
+    const Errors energy_stable = rmsOf(Impact(a, 5512.5), Scheme::kEnergyStable);
+    EXPECT_LT(energy_stable.duration, 4e-3) << a;
+    EXPECT_LT(energy_stable.rebound, 1e-12) << a;
     EXPECT_GT(rmsOf(Impact(a, 5512.5), Scheme::kExplicit).duration, 1e-2) << a;
   }
 }
 
-/// A guarded wall with h^2 K/M = kt and a damping ratio.
+/// An energy-stable wall with h^2 K/M = kt and a damping ratio.
 SceneBuilder dampedWall(double kt, double ratio, double x, double speed, double mass = 1.0) {
   SceneBuilder b;
   const int ball = b.mass(mass, x, speed * kRate);
   b.link(LiaType::kPowerContact, ball, b.ground(), kt * kRate * kRate * mass,
          2.0 * ratio * std::sqrt(kt) * kRate * mass);
   b.scene.lias[0].law.edit().exponent = {1.0};
-  b.scene.lias[0].scheme = Scheme::kGuarded;
+  b.scene.lias[0].scheme = Scheme::kEnergyStable;
   return b;
 }
 
@@ -143,7 +144,7 @@ Errors dampedImpact(double kt, double ratio, double phase) {
           -flight.velocity / kSpeed / std::exp(-kPi * ratio / root) - 1.0};
 }
 
-TEST(GuardedTest, DampedContactReboundsAsInClosedForm) {
+TEST(EnergyStableTest, DampedContactReboundsAsInClosedForm) {
   for (int k = 0; k < 64; ++k) {
     const Errors e = dampedImpact(0.005, 0.1, k / 64.0);
     EXPECT_LT(std::abs(e.duration), 1e-3) << k;
@@ -152,7 +153,7 @@ TEST(GuardedTest, DampedContactReboundsAsInClosedForm) {
 }
 
 /// A stiff wall sees less than two samples of the ball: only the loss is kept, on average.
-TEST(GuardedTest, StiffDampedContactLosesSpeedByRestitution) {
+TEST(EnergyStableTest, StiffDampedContactLosesSpeedByRestitution) {
   double mean = 0.0;
   const double e = std::exp(-kPi * 0.3 / std::sqrt(1.0 - 0.09));
   for (int k = 0; k < 64; ++k) {
@@ -165,7 +166,7 @@ TEST(GuardedTest, StiffDampedContactLosesSpeedByRestitution) {
 }
 
 /// 2 N press a ball of 5 g onto a damped wall.
-TEST(GuardedTest, PressedContactComesToRest) {
+TEST(EnergyStableTest, PressedContactComesToRest) {
   constexpr double kForce = 2.0;
   constexpr double kMass = 5e-3;
   constexpr double kPressedStep = kForce / kMass / (kRate * kRate);
@@ -191,7 +192,7 @@ TEST(GuardedTest, PressedContactComesToRest) {
 }
 
 /// A damped mass that comes to rest just where it touches: its steps shrink until they vanish.
-TEST(GuardedTest, ContactThatComesToRestTouchingStaysFinite) {
+TEST(EnergyStableTest, ContactThatComesToRestTouchingStaysFinite) {
   for (const LiaType type : {LiaType::kContact, LiaType::kPowerContact, LiaType::kFelt}) {
     for (const Precision precision : {Precision::kFloat, Precision::kDouble}) {
       SceneBuilder b;
@@ -200,7 +201,7 @@ TEST(GuardedTest, ContactThatComesToRestTouchingStaysFinite) {
       scene::Lia& lia = b.scene.lias[at(b.link(type, b.ground(), mass, 20000.0))];
       lia.law.edit().exponent = {type == LiaType::kContact ? 1.0 : 1.5};
       lia.damping = {type == LiaType::kFelt ? 0.1 : 0.0};
-      lia.scheme = Scheme::kGuarded;
+      lia.scheme = Scheme::kEnergyStable;
       b.hear(mass);
       Player player(compile(b.scene, {kRate, 14}, precision));
       player.ticks(static_cast<int>(12.0 * kRate / 14));
@@ -210,7 +211,7 @@ TEST(GuardedTest, ContactThatComesToRestTouchingStaysFinite) {
 }
 
 /// A spring pulls a ball off a wall, often harder than the wall pushes where it is about to let go.
-TEST(GuardedTest, ContactsNeverPull) {
+TEST(EnergyStableTest, ContactsNeverPull) {
   for (const LiaType type : {LiaType::kContact, LiaType::kPowerContact, LiaType::kCubicContact}) {
     for (const double kappa : {0.1, 1.0, 10.0, 100.0}) {
       SceneBuilder b;
@@ -223,7 +224,7 @@ TEST(GuardedTest, ContactsNeverPull) {
       lia.law.edit().nonlinearity = lia.stiffness;
       lia.law.edit().stiffness_limit = 2.0 * lia.stiffness;
       lia.law.edit().tipping_point = 1.0;
-      lia.scheme = Scheme::kGuarded;
+      lia.scheme = Scheme::kEnergyStable;
       b.hear(wall, 0, Quantity::kForce);
       Player player(b.scene, {kRate, 1});
       player.ticks(2000);
@@ -235,7 +236,7 @@ TEST(GuardedTest, ContactsNeverPull) {
 }
 
 /// Torn off in the very step in which an impact would throw it back.
-TEST(GuardedTest, ImpactsThatArePulledApartDoNotHoldOn) {
+TEST(EnergyStableTest, ImpactsThatArePulledApartDoNotHoldOn) {
   constexpr double kSpeed = 1e-3;
   for (const double kt : {3.0, 30.0, 300.0}) {
     for (const double pull : {0.0, 1.5, 2.0, 4.0}) {  // of the speed, per step
@@ -254,7 +255,7 @@ TEST(GuardedTest, ImpactsThatArePulledApartDoNotHoldOn) {
   }
 }
 
-TEST(GuardedTest, ObliqueCollisionsKeepEnergyAndMomentum) {
+TEST(EnergyStableTest, ObliqueCollisionsKeepEnergyAndMomentum) {
   std::mt19937 random(7);
   std::uniform_real_distribution<double> any(-1.0, 1.0);
   for (int k = 0; k < 160; ++k) {
@@ -270,7 +271,7 @@ TEST(GuardedTest, ObliqueCollisionsKeepEnergyAndMomentum) {
     }
     b.link(LiaType::kContact, 0, 1, kt / (1.0 / kg[0] + 1.0 / kg[1]) * kRate * kRate);
     b.scene.lias[0].law.edit().width = {1.0};
-    b.scene.lias[0].scheme = Scheme::kGuarded;
+    b.scene.lias[0].scheme = Scheme::kEnergyStable;
     Player player(b.scene, {kRate, 1});
     player.tick();
     const double before = energiesOf(player).sections[0].kinetic;

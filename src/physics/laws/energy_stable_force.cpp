@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "physics/laws/guarded_force.hpp"
+#include "physics/laws/energy_stable_force.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -23,7 +23,7 @@ Real lookAhead(Real kt, bool is_contact) noexcept {
 }
 
 template <class Real>
-void lose(Real energy, GuardedState<Real>& state) noexcept {
+void lose(Real energy, EnergyStableState<Real>& state) noexcept {
   state.lost += static_cast<double>(energy);
   state.tank -= energy;
 }
@@ -32,10 +32,10 @@ void lose(Real energy, GuardedState<Real>& state) noexcept {
 /// the link turns from closing to opening, its tank keeps e^2 of what it holds.
 /// \param e  restitution at a speed per step
 template <class Real, class Restitution>
-Real rebound(GuardedMotion<Real>& m,
+Real rebound(EnergyStableMotion<Real>& m,
              const Restitution& e,
              Real wanted,
-             GuardedState<Real>& state) noexcept {
+             EnergyStableState<Real>& state) noexcept {
   // Empty but for rounding, against the energy of the motion.
   const bool is_empty =
       m.give * state.tank <= Real(kEmptyTank) * m.coasting * m.coasting && m.give > Real(0);
@@ -66,21 +66,21 @@ Real rebound(GuardedMotion<Real>& m,
 
 /// True if what presses the link holds it so deep at rest that it will not let go while it swings.
 template <class Real>
-bool isHeld(const GuardedMotion<Real>& m, Real slope) noexcept {
+bool isHeld(const EnergyStableMotion<Real>& m, Real slope) noexcept {
   const Real load = m.coasting - m.opening;
   return load > m.give * slope * std::abs(m.coasting);
 }
 
 /// The force that lets the link move no further.
 template <class Real>
-Real stoppingForce(const GuardedMotion<Real>& m) noexcept {
+Real stoppingForce(const EnergyStableMotion<Real>& m) noexcept {
   return std::max(Real(0), (m.coasting / Real(2) - m.opening) / m.give);
 }
 
 /// The force of the law a little ahead.
 template <class Real>
-Real wantedForce(const GuardedMotion<Real>& m,
-                 const GuardedForce<Real>& at,
+Real wantedForce(const EnergyStableMotion<Real>& m,
+                 const EnergyStableForce<Real>& at,
                  Real kt,
                  bool is_contact) noexcept {
   const Real ahead = lookAhead(kt, is_contact);
@@ -91,9 +91,9 @@ Real wantedForce(const GuardedMotion<Real>& m,
 /// closes, at a time between two samples; the mean of the law over the steps before and after,
 /// which is what the motion feels, accounts for that. It depends on the velocity, hence the passes.
 template <class Real>
-Real wantedMean(const GuardedMotion<Real>& m,
-                const GuardedLaw<Real>& law,
-                GuardedForce<Real> at,
+Real wantedMean(const EnergyStableMotion<Real>& m,
+                const EnergyStableLaw<Real>& law,
+                EnergyStableForce<Real> at,
                 Real kt) noexcept {
   Real wanted = at.force;
   for (int pass = 0; pass < 3; ++pass) {
@@ -115,9 +115,9 @@ struct Lossy {
 /// the velocity changes. What centred steps take for the work of f is too much by h^2 c f f'
 /// v^2/4M, with f f' v = d(f^2)/2dt.
 template <class Real>
-Lossy<Real> wantedLossy(const GuardedMotion<Real>& m,
-                        const GuardedLaw<Real>& law,
-                        const GuardedForce<Real>& at,
+Lossy<Real> wantedLossy(const EnergyStableMotion<Real>& m,
+                        const EnergyStableLaw<Real>& law,
+                        const EnergyStableForce<Real>& at,
                         Real kt,
                         Real z) noexcept {
   const Real c = law.damping;
@@ -146,7 +146,7 @@ Lossy<Real> wantedLossy(const GuardedMotion<Real>& m,
 
 /// A damper of z, centred: it dissipates at any z.
 template <class Real>
-void brake(Real z, GuardedMotion<Real>& m) noexcept {
+void brake(Real z, EnergyStableMotion<Real>& m) noexcept {
   const Real drag = Real(1) + m.give * z / Real(2);
   m.damper = -z * (m.opening + m.give * m.force) / (Real(2) * drag);
 }
@@ -154,7 +154,7 @@ void brake(Real z, GuardedMotion<Real>& m) noexcept {
 /// A contact with loss never pulls: where the damper would, it takes away what the elastic force
 /// gives.
 template <class Real>
-void keepFromPulling(GuardedMotion<Real>& m, const GuardedState<Real>& state) noexcept {
+void keepFromPulling(EnergyStableMotion<Real>& m, const EnergyStableState<Real>& state) noexcept {
   if (m.total() < Real(0)) {
     m.force = std::min(m.force, largestForce(state.tank, m.opening, Real(0)));
     m.damper = -m.force;
@@ -164,9 +164,9 @@ void keepFromPulling(GuardedMotion<Real>& m, const GuardedState<Real>& state) no
 /// The link has let go: what is left in its tank goes back, once it opens, less what the law loses.
 /// If something pushes it to again before that, it keeps the rest for the next contact.
 template <class Real>
-void release(GuardedMotion<Real>& m,
-             const GuardedLaw<Real>& law,
-             GuardedState<Real>& state) noexcept {
+void release(EnergyStableMotion<Real>& m,
+             const EnergyStableLaw<Real>& law,
+             EnergyStableState<Real>& state) noexcept {
   m.empties = m.opening > Real(0);
   m.force = m.empties ? largestForce(state.tank, m.opening, m.give) : Real(0);
   if (law.form->is_lossy && state.phase == Real(0)) {
@@ -177,12 +177,12 @@ void release(GuardedMotion<Real>& m,
 }
 
 template <class Real>
-void exertElastic(GuardedMotion<Real>& m,
-                  const GuardedLaw<Real>& law,
-                  GuardedState<Real>& state) noexcept {
+void exertElastic(EnergyStableMotion<Real>& m,
+                  const EnergyStableLaw<Real>& law,
+                  EnergyStableState<Real>& state) noexcept {
   const bool is_contact = law.isContact();
   const bool is_open = is_contact && !(m.p > Real(0));
-  const GuardedForce<Real> at = is_open ? GuardedForce<Real>{} : law.push(m.p);
+  const EnergyStableForce<Real> at = is_open ? EnergyStableForce<Real>{} : law.push(m.p);
   const Real kt = m.give * std::max(Real(0), at.slope);
   const Real deepest = m.p + std::abs(m.coasting) / Real(2);
   const bool is_long = is_contact && m.give * law.push(deepest).slope <= Real(kShortContact);
@@ -227,16 +227,16 @@ void exertElastic(GuardedMotion<Real>& m,
 /// Two passes of Newton's method from the backward slip, each kept between no force and the force
 /// that stops the slip.
 template <class Real>
-void exertFriction(GuardedMotion<Real>& m,
-                   const GuardedLaw<Real>& law,
-                   GuardedState<Real>& state) noexcept {
+void exertFriction(EnergyStableMotion<Real>& m,
+                   const EnergyStableLaw<Real>& law,
+                   EnergyStableState<Real>& state) noexcept {
   const Real unbounded = std::copysign(std::numeric_limits<Real>::max(), -m.opening);
   const Real stop = m.give > Real(0) ? -m.opening / m.give : unbounded;
   const Real low = std::min(Real(0), stop);
   const Real high = std::max(Real(0), stop);
   Real slip = -m.coasting / Real(2);
   for (int pass = 0; pass < 2; ++pass) {
-    const GuardedForce<Real> at = law.slip(slip);
+    const EnergyStableForce<Real> at = law.slip(slip);
     // Below that slope a centred step has more than one solution.
     const Real slope = m.give > Real(0) ? std::max(at.slope, Real(-1) / m.give) : at.slope;
     const Real wanted =
@@ -251,7 +251,7 @@ void exertFriction(GuardedMotion<Real>& m,
 }  // namespace
 
 template <class Real>
-bool holdsAt(Real p, const GuardedLaw<Real>& law, GuardedState<Real>& state) noexcept {
+bool holdsAt(Real p, const EnergyStableLaw<Real>& law, EnergyStableState<Real>& state) noexcept {
   const Real last = state.phase;
   state.phase = law.form->phase(law, p, last);
   if (last > Real(0) && state.phase == Real(0)) {
@@ -261,9 +261,9 @@ bool holdsAt(Real p, const GuardedLaw<Real>& law, GuardedState<Real>& state) noe
 }
 
 template <class Real>
-void exertForce(GuardedMotion<Real>& m,
-                const GuardedLaw<Real>& law,
-                GuardedState<Real>& state) noexcept {
+void exertForce(EnergyStableMotion<Real>& m,
+                const EnergyStableLaw<Real>& law,
+                EnergyStableState<Real>& state) noexcept {
   if (m.is_friction) {
     exertFriction(m, law, state);
   } else if (m.is_pushing) {
@@ -274,7 +274,7 @@ void exertForce(GuardedMotion<Real>& m,
 }
 
 template <class Real>
-void payWork(GuardedMotion<Real>& m, GuardedState<Real>& state) noexcept {
+void payWork(EnergyStableMotion<Real>& m, EnergyStableState<Real>& state) noexcept {
   m.budget = state.tank;
   const Real swing = m.swing();
   const Real work = m.force * swing / Real(2);
@@ -296,7 +296,7 @@ void payWork(GuardedMotion<Real>& m, GuardedState<Real>& state) noexcept {
 }
 
 template <class Real>
-void payArrears(Real moved, GuardedState<Real>& state) noexcept {
+void payArrears(Real moved, EnergyStableState<Real>& state) noexcept {
   const Real unforeseen = (moved - state.foreseen) / Real(2);
   state.lost -= static_cast<double>(state.damper * unforeseen);
   state.tank -= state.force * unforeseen;
@@ -306,17 +306,17 @@ void payArrears(Real moved, GuardedState<Real>& state) noexcept {
   }
 }
 
-template bool holdsAt(float, const GuardedLaw<float>&, GuardedState<float>&) noexcept;
-template bool holdsAt(double, const GuardedLaw<double>&, GuardedState<double>&) noexcept;
-template void exertForce(GuardedMotion<float>&,
-                         const GuardedLaw<float>&,
-                         GuardedState<float>&) noexcept;
-template void exertForce(GuardedMotion<double>&,
-                         const GuardedLaw<double>&,
-                         GuardedState<double>&) noexcept;
-template void payWork(GuardedMotion<float>&, GuardedState<float>&) noexcept;
-template void payWork(GuardedMotion<double>&, GuardedState<double>&) noexcept;
-template void payArrears(float, GuardedState<float>&) noexcept;
-template void payArrears(double, GuardedState<double>&) noexcept;
+template bool holdsAt(float, const EnergyStableLaw<float>&, EnergyStableState<float>&) noexcept;
+template bool holdsAt(double, const EnergyStableLaw<double>&, EnergyStableState<double>&) noexcept;
+template void exertForce(EnergyStableMotion<float>&,
+                         const EnergyStableLaw<float>&,
+                         EnergyStableState<float>&) noexcept;
+template void exertForce(EnergyStableMotion<double>&,
+                         const EnergyStableLaw<double>&,
+                         EnergyStableState<double>&) noexcept;
+template void payWork(EnergyStableMotion<float>&, EnergyStableState<float>&) noexcept;
+template void payWork(EnergyStableMotion<double>&, EnergyStableState<double>&) noexcept;
+template void payArrears(float, EnergyStableState<float>&) noexcept;
+template void payArrears(double, EnergyStableState<double>&) noexcept;
 
 }  // namespace ergotic::physics

@@ -9,29 +9,29 @@
 
 namespace ergotic::physics {
 
-struct GuardedRef {
+struct EnergyStableRef {
   std::size_t run = 0;  ///< index in Layout::runs
   std::size_t link = 0;
 };
 
-/// Guarded links that are stepped together. Those of one run follow one another.
-struct GuardedGroup {
-  int divisor = 1;                  ///< audio frames per step
-  int group = LinkRun::kHeldGroup;  ///< LinkRun::group
-  std::vector<GuardedRef> links;    // but those that share a tank
-  std::vector<std::size_t> tanks;   // runs of these
+/// Energy-stable links that are stepped together. Those of one run follow one another.
+struct EnergyStableGroup {
+  int divisor = 1;                     ///< audio frames per step
+  int group = LinkRun::kHeldGroup;     ///< LinkRun::group
+  std::vector<EnergyStableRef> links;  // but those that share a tank
+  std::vector<std::size_t> tanks;      // runs of these
 };
 
-/// Lists all guarded links of a layout, by group and rate. Realtime: no.
-inline std::vector<GuardedGroup> guardedGroupsOf(const Layout& layout) {
-  std::vector<GuardedGroup> groups;
+/// Lists all energy-stable links of a layout, by group and rate. Realtime: no.
+inline std::vector<EnergyStableGroup> energyStableGroupsOf(const Layout& layout) {
+  std::vector<EnergyStableGroup> groups;
   for (std::size_t r = 0; r < layout.runs.size(); ++r) {
     const LinkRun& run = layout.runs[r];
-    if (!run.guarded) {
+    if (!run.energy_stable) {
       continue;
     }
     const int divisor = layout.sections[static_cast<std::size_t>(run.section)].divisor;
-    auto group = std::find_if(groups.begin(), groups.end(), [&](const GuardedGroup& g) {
+    auto group = std::find_if(groups.begin(), groups.end(), [&](const EnergyStableGroup& g) {
       return g.divisor == divisor && g.group == run.group;
     });
     if (group == groups.end()) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "physics/engine/guarded_reach.hpp"
+#include "physics/engine/energy_stable_reach.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -70,9 +70,9 @@ class Coupling {
 
 }  // namespace
 
-GuardedReach::GuardedReach(const scene::Scene& scene,
-                           const Layout& layout,
-                           const std::vector<GuardedGroup>& groups)
+EnergyStableReach::EnergyStableReach(const scene::Scene& scene,
+                                     const Layout& layout,
+                                     const std::vector<EnergyStableGroup>& groups)
     : layout_(layout),
       place_of_slot_(indicesBySlot(layout, layout.places)),
       projection_of_slot_(indicesBySlot(layout, layout.projections)),
@@ -87,23 +87,23 @@ GuardedReach::GuardedReach(const scene::Scene& scene,
   findWholeTaps(scene, groups);
 }
 
-int GuardedReach::behind(int slot) const noexcept {
+int EnergyStableReach::behind(int slot) const noexcept {
   const int projection = projection_of_slot_[at(slot)];
   return projection >= 0 ? behind(layout_.projections[at(projection)].of.slot) : slot;
 }
 
-std::vector<int> GuardedReach::slotsUnder(std::size_t place) const {
+std::vector<int> EnergyStableReach::slotsUnder(std::size_t place) const {
   const scene::Grid& grid = grids_[place];
   const auto first = layout_.slot_of_mat.begin() + grid.first;
   return {first, first + grid.columns * grid.rows};
 }
 
-void GuardedReach::findWholeTaps(const scene::Scene& scene,
-                                 const std::vector<GuardedGroup>& groups) {
+void EnergyStableReach::findWholeTaps(const scene::Scene& scene,
+                                      const std::vector<EnergyStableGroup>& groups) {
   std::set<int> taps;
   std::set<int> modules;
-  for (const GuardedGroup& group : groups) {
-    for (const GuardedRef& ref : group.links) {
+  for (const EnergyStableGroup& group : groups) {
+    for (const EnergyStableRef& ref : group.links) {
       const LinkEnds& ends = layout_.runs[ref.run].ends[ref.link];
       for (const int slot : {behind(ends.a), behind(ends.b)}) {
         if (tap_of_slot_[at(slot)] >= 0) {
@@ -135,12 +135,12 @@ void GuardedReach::findWholeTaps(const scene::Scene& scene,
   }
 }
 
-std::array<int, 2> GuardedReach::placesOf(const GuardedRef& ref) const noexcept {
+std::array<int, 2> EnergyStableReach::placesOf(const EnergyStableRef& ref) const noexcept {
   const LinkEnds& ends = layout_.runs[ref.run].ends[ref.link];
   return {place_of_slot_[at(behind(ends.a))], place_of_slot_[at(behind(ends.b))]};
 }
 
-std::vector<std::size_t> GuardedReach::tapsAt(const GuardedRef& ref) const {
+std::vector<std::size_t> EnergyStableReach::tapsAt(const EnergyStableRef& ref) const {
   std::vector<std::size_t> taps;
   const LinkEnds& ends = layout_.runs[ref.run].ends[ref.link];
   for (const int end : {ends.a, ends.b}) {
@@ -152,7 +152,9 @@ std::vector<std::size_t> GuardedReach::tapsAt(const GuardedRef& ref) const {
   return taps;
 }
 
-void GuardedReach::find(const GuardedRef& ref, const double* places, Terms& to) const noexcept {
+void EnergyStableReach::find(const EnergyStableRef& ref,
+                             const double* places,
+                             Terms& to) const noexcept {
   const LinkRun& run = layout_.runs[ref.run];
   const int divisor = layout_.sections[at(run.section)].divisor;
   const auto slowOf = [&](int section) {
@@ -168,16 +170,16 @@ void GuardedReach::find(const GuardedRef& ref, const double* places, Terms& to) 
 }
 
 /// \param map  from the coordinates of the end to those of the link, signed
-void GuardedReach::reachEnd(int slot,
-                            int stride,
-                            int dimensions,
-                            const Eigen::Matrix3d& map,
-                            int slow_section,
-                            const double* places,
-                            Terms& to) const noexcept {
+void EnergyStableReach::reachEnd(int slot,
+                                 int stride,
+                                 int dimensions,
+                                 const Eigen::Matrix3d& map,
+                                 int slow_section,
+                                 const double* places,
+                                 Terms& to) const noexcept {
   const auto add = [&](int module, int step, double weight, bool is_tap) {
     for (int c = 0; c < dimensions; ++c) {
-      GuardedTerm term{module + c * step, module, c, {}, slow_section, is_tap};
+      EnergyStableTerm term{module + c * step, module, c, {}, slow_section, is_tap};
       Eigen::Map<Eigen::Vector3d>(term.weight) = weight * map.col(c);
       to.terms.push_back(term);
     }

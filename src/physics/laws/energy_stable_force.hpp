@@ -6,17 +6,17 @@
 #include <cstddef>
 #include <limits>
 
-#include "scene/laws/guarded_form.hpp"
+#include "scene/laws/energy_stable_form.hpp"
 
 namespace ergotic::physics {
 
-using scene::GuardedForce;
-using scene::GuardedLaw;
+using scene::EnergyStableForce;
+using scene::EnergyStableLaw;
 
-/// State that a guarded link keeps between steps; all 0 before it starts. Energies in force unit
-/// times m. Letters are those of docs/physics/schemes.md, "Energy-stable links".
+/// State that an energy-stable link keeps between steps; all 0 before it starts. Energies in force
+/// unit times m. Letters are those of docs/physics/schemes.md, "Energy-stable links".
 template <class Real>
-struct GuardedState {
+struct EnergyStableState {
   double stored = 0.0;      ///< at this step: the tank, with the first half of the step's work
   double lost = 0.0;        ///< energy dissipated since the start
   double active = 0.0;      ///< number of steps in which it pushed
@@ -33,15 +33,16 @@ struct GuardedState {
   static constexpr std::size_t kDoubles = sizeof(Real) == sizeof(double) ? 12 : 4;
 };
 
-/// Inputs and results of a guarded link in one step. The link opens while p falls. Letters as
-/// above.
+/// Inputs and results of an energy-stable link in one step. The link opens while p falls. Letters
+/// as above.
 template <class Real>
-struct GuardedMotion {
+struct EnergyStableMotion {
   Real p = Real(0);                                ///< p, compression or elongation, m
   Real gradient[3] = {Real(0), Real(0), Real(0)};  ///< of p over end a less end b
   Real coasting = Real(0);  ///< sk, how far it would open over two steps at its present velocity, m
   Real opening = Real(0);   ///< s0, the same with the forces of all others
-  Real expected = Real(0);  ///< part of that: what the other guarded links on its masses will do
+  Real expected =
+      Real(0);  ///< part of that: what the other energy-stable links on its masses will do
   Real foreseen = Real(0);  ///< part of that in the step to come, by what forces do not move
   Real give = Real(0);      ///< q, opening per force if all on its masses change theirs alike
   Real own_give = Real(0);  ///< q with c = 1: if it were alone
@@ -74,30 +75,30 @@ Real largestForce(Real energy, Real opening, Real give) noexcept {
 
 /// Whether a spring that lets go holds at p; it loses what its law does. Realtime: yes
 template <class Real>
-bool holdsAt(Real p, const GuardedLaw<Real>& law, GuardedState<Real>& state) noexcept;
+bool holdsAt(Real p, const EnergyStableLaw<Real>& law, EnergyStableState<Real>& state) noexcept;
 
 /// Works out force and damper. \pre all that is above them in `m` is known
 /// Realtime: yes. Source: docs/physics/schemes.md, "Energy-stable links".
 template <class Real>
-void exertForce(GuardedMotion<Real>& m,
-                const GuardedLaw<Real>& law,
-                GuardedState<Real>& state) noexcept;
+void exertForce(EnergyStableMotion<Real>& m,
+                const EnergyStableLaw<Real>& law,
+                EnergyStableState<Real>& state) noexcept;
 
 /// Pays the work of this step from the tank, as the motion is expected. Realtime: yes
 template <class Real>
-void payWork(GuardedMotion<Real>& m, GuardedState<Real>& state) noexcept;
+void payWork(EnergyStableMotion<Real>& m, EnergyStableState<Real>& state) noexcept;
 
 /// Takes back what it was charged too much: `swing` is how far it opened more than it really will.
 /// Realtime: yes
 template <class Real>
-void takeBack(Real swing, GuardedMotion<Real>& m, GuardedState<Real>& state) noexcept {
+void takeBack(Real swing, EnergyStableMotion<Real>& m, EnergyStableState<Real>& state) noexcept {
   state.tank += m.force * swing / Real(2);
   m.heat += m.damper * swing / Real(2);
 }
 
 /// Ends the step: neither tank nor heat stays below 0, each pays for the other. Realtime: yes
 template <class Real>
-void closeStep(const GuardedMotion<Real>& m, GuardedState<Real>& state) noexcept {
+void closeStep(const EnergyStableMotion<Real>& m, EnergyStableState<Real>& state) noexcept {
   state.clipped += m.is_cut ? 1.0 : 0.0;
   const Real both = state.tank + m.heat;
   state.tank = std::clamp(state.tank, Real(0), std::max(Real(0), both));
@@ -107,6 +108,6 @@ void closeStep(const GuardedMotion<Real>& m, GuardedState<Real>& state) noexcept
 /// Pays what the force of the last step did beyond what was foreseen then.
 /// \param moved  how far what forces do not move has opened the link since. Realtime: yes
 template <class Real>
-void payArrears(Real moved, GuardedState<Real>& state) noexcept;
+void payArrears(Real moved, EnergyStableState<Real>& state) noexcept;
 
 }  // namespace ergotic::physics

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "at.hpp"
-#include "physics/engine/guarded.hpp"
+#include "physics/engine/energy_stable.hpp"
 
 namespace ergotic::physics {
 namespace {
@@ -27,11 +27,11 @@ void removeAlong(const Real (&line)[3], Real (&from)[3]) noexcept {
 /// Computes the slip of the step to come, with the forces of all other links and of the frictions
 /// that stick before this one, which are in the loads of its modules.
 template <class Real>
-Slide<Real> GuardedLinks<Real>::slideOf(const GuardedView<Real>& view,
-                                        const Pressure<Real>& pressed,
-                                        const Link& link,
-                                        Motion& m,
-                                        GuardedState<Real>& state) const noexcept {
+Slide<Real> EnergyStableLinks<Real>::slideOf(const EnergyStableView<Real>& view,
+                                             const Pressure<Real>& pressed,
+                                             const Link& link,
+                                             Motion& m,
+                                             EnergyStableState<Real>& state) const noexcept {
   const Course course = courseOf(view, link);
   Real next[3];
   Real now[3];
@@ -69,10 +69,10 @@ Slide<Real> GuardedLinks<Real>::slideOf(const GuardedView<Real>& view,
 /// Visits the modules of a link, with the part that each has in how it gives way.
 template <class Real>
 template <class Visit>
-void GuardedLinks<Real>::visitShares(const GuardedView<Real>& view,
-                                     const Link& link,
-                                     const Motion& m,
-                                     const Visit& visit) noexcept {
+void EnergyStableLinks<Real>::visitShares(const EnergyStableView<Real>& view,
+                                          const Link& link,
+                                          const Motion& m,
+                                          const Visit& visit) noexcept {
   const std::size_t end = link.first + link.count;
   for (std::size_t t = link.first; t < end;) {
     const Term& first = terms_[t];
@@ -90,12 +90,12 @@ void GuardedLinks<Real>::visitShares(const GuardedView<Real>& view,
 /// Exerts the force of one friction that sticks. Energy that it gives comes from its tank, then
 /// from what earlier frictions have taken from the same modules in this step.
 template <class Real>
-void GuardedLinks<Real>::rub(const GuardedView<Real>& view,
-                             const GuardedLaw<Real>& law,
-                             const Pressure<Real>& pressed,
-                             const Link& link,
-                             Motion& m,
-                             GuardedState<Real>& state) noexcept {
+void EnergyStableLinks<Real>::rub(const EnergyStableView<Real>& view,
+                                  const EnergyStableLaw<Real>& law,
+                                  const Pressure<Real>& pressed,
+                                  const Link& link,
+                                  Motion& m,
+                                  EnergyStableState<Real>& state) noexcept {
   m = Motion{};
   const Slide<Real> slide = slideOf(view, pressed, link, m, state);
   Real credit = Real(0);
@@ -120,10 +120,10 @@ void GuardedLinks<Real>::rub(const GuardedView<Real>& view,
 
 /// Its tank keeps the rest of the energy that it took; if the friction sticks, the rest is lost.
 template <class Real>
-void GuardedLinks<Real>::closeRub(const GuardedView<Real>& view,
-                                  const Link& link,
-                                  const Motion& m,
-                                  GuardedState<Real>& state) noexcept {
+void EnergyStableLinks<Real>::closeRub(const EnergyStableView<Real>& view,
+                                       const Link& link,
+                                       const Motion& m,
+                                       EnergyStableState<Real>& state) noexcept {
   Real left = m.heat;
   visitShares(view, link, m, [&](const Module& module, Real share) {
     left -= module.heat > Real(0) ? share * m.heat * module.spent / module.heat : Real(0);
@@ -135,35 +135,36 @@ void GuardedLinks<Real>::closeRub(const GuardedView<Real>& view,
   }
 }
 
-template Slide<float> GuardedLinks<float>::slideOf(const GuardedView<float>&,
-                                                   const Pressure<float>&,
-                                                   const Link&,
-                                                   Motion&,
-                                                   GuardedState<float>&) const noexcept;
-template Slide<double> GuardedLinks<double>::slideOf(const GuardedView<double>&,
-                                                     const Pressure<double>&,
-                                                     const Link&,
-                                                     Motion&,
-                                                     GuardedState<double>&) const noexcept;
-template void GuardedLinks<float>::rub(const GuardedView<float>&,
-                                       const GuardedLaw<float>&,
-                                       const Pressure<float>&,
-                                       const Link&,
-                                       Motion&,
-                                       GuardedState<float>&) noexcept;
-template void GuardedLinks<double>::rub(const GuardedView<double>&,
-                                        const GuardedLaw<double>&,
-                                        const Pressure<double>&,
-                                        const Link&,
-                                        Motion&,
-                                        GuardedState<double>&) noexcept;
-template void GuardedLinks<float>::closeRub(const GuardedView<float>&,
+template Slide<float> EnergyStableLinks<float>::slideOf(const EnergyStableView<float>&,
+                                                        const Pressure<float>&,
+                                                        const Link&,
+                                                        Motion&,
+                                                        EnergyStableState<float>&) const noexcept;
+template Slide<double> EnergyStableLinks<double>::slideOf(
+    const EnergyStableView<double>&,
+    const Pressure<double>&,
+    const Link&,
+    Motion&,
+    EnergyStableState<double>&) const noexcept;
+template void EnergyStableLinks<float>::rub(const EnergyStableView<float>&,
+                                            const EnergyStableLaw<float>&,
+                                            const Pressure<float>&,
                                             const Link&,
-                                            const Motion&,
-                                            GuardedState<float>&) noexcept;
-template void GuardedLinks<double>::closeRub(const GuardedView<double>&,
+                                            Motion&,
+                                            EnergyStableState<float>&) noexcept;
+template void EnergyStableLinks<double>::rub(const EnergyStableView<double>&,
+                                             const EnergyStableLaw<double>&,
+                                             const Pressure<double>&,
                                              const Link&,
-                                             const Motion&,
-                                             GuardedState<double>&) noexcept;
+                                             Motion&,
+                                             EnergyStableState<double>&) noexcept;
+template void EnergyStableLinks<float>::closeRub(const EnergyStableView<float>&,
+                                                 const Link&,
+                                                 const Motion&,
+                                                 EnergyStableState<float>&) noexcept;
+template void EnergyStableLinks<double>::closeRub(const EnergyStableView<double>&,
+                                                  const Link&,
+                                                  const Motion&,
+                                                  EnergyStableState<double>&) noexcept;
 
 }  // namespace ergotic::physics

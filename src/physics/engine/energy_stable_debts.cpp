@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "at.hpp"
-#include "physics/engine/guarded.hpp"
+#include "physics/engine/energy_stable.hpp"
 #include "physics/engine/near_links.hpp"
 
 namespace ergotic::physics {
@@ -11,7 +11,7 @@ namespace {
 
 /// Gives up the rest of what a link has: a part of it goes to others.
 template <class Real>
-void keep(Real part, GuardedMotion<Real>& m, GuardedState<Real>& state) noexcept {
+void keep(Real part, EnergyStableMotion<Real>& m, EnergyStableState<Real>& state) noexcept {
   const Real both = std::max(Real(0), state.tank + m.heat);
   const Real tank = std::clamp(state.tank, Real(0), both);
   state.tank = part * tank;
@@ -21,7 +21,7 @@ void keep(Real part, GuardedMotion<Real>& m, GuardedState<Real>& state) noexcept
 }  // namespace
 
 template <class Real>
-std::size_t GuardedLinks<Real>::rootOf(std::size_t link) noexcept {
+std::size_t EnergyStableLinks<Real>::rootOf(std::size_t link) noexcept {
   while (clusters_[link].parent != link) {
     clusters_[link].parent = clusters_[clusters_[link].parent].parent;
     link = clusters_[link].parent;
@@ -30,8 +30,8 @@ std::size_t GuardedLinks<Real>::rootOf(std::size_t link) noexcept {
 }
 
 template <class Real>
-void GuardedLinks<Real>::joinThoseThatShare(const NearLinks<Real>& near,
-                                            const GuardedView<Real>& view) noexcept {
+void EnergyStableLinks<Real>::joinThoseThatShare(const NearLinks<Real>& near,
+                                                 const EnergyStableView<Real>& view) noexcept {
   for (const std::size_t l : near) {
     clusters_[l] = Cluster{};
     clusters_[l].parent = l;
@@ -53,10 +53,10 @@ void GuardedLinks<Real>::joinThoseThatShare(const NearLinks<Real>& near,
 
 /// Leaves a link that part of its force, and an empty tank.
 template <class Real>
-void GuardedLinks<Real>::weaken(const Link& link,
-                                Real part,
-                                Motion& m,
-                                GuardedState<Real>& state) noexcept {
+void EnergyStableLinks<Real>::weaken(const Link& link,
+                                     Real part,
+                                     Motion& m,
+                                     EnergyStableState<Real>& state) noexcept {
   Motion less = m;
   less.force *= part - Real(1);
   less.damper *= part - Real(1);
@@ -75,9 +75,9 @@ void GuardedLinks<Real>::weaken(const Link& link,
 /// cannot pay, all forces are scaled down: a part y of them does the work y a + y^2 b, with b the
 /// work of the forces on one another, which is never negative.
 template <class Real>
-void GuardedLinks<Real>::settleDebts(const NearLinks<Real>& near,
-                                     const GuardedView<Real>& view,
-                                     GuardedState<Real>* states) noexcept {
+void EnergyStableLinks<Real>::settleDebts(const NearLinks<Real>& near,
+                                          const EnergyStableView<Real>& view,
+                                          EnergyStableState<Real>* states) noexcept {
   joinThoseThatShare(near, view);
   for (const std::size_t l : near) {
     if (motions_[l].is_shared) {
@@ -108,25 +108,25 @@ void GuardedLinks<Real>::settleDebts(const NearLinks<Real>& near,
   }
 }
 
-template std::size_t GuardedLinks<float>::rootOf(std::size_t) noexcept;
-template std::size_t GuardedLinks<double>::rootOf(std::size_t) noexcept;
-template void GuardedLinks<float>::joinThoseThatShare(const NearLinks<float>&,
-                                                      const GuardedView<float>&) noexcept;
-template void GuardedLinks<double>::joinThoseThatShare(const NearLinks<double>&,
-                                                       const GuardedView<double>&) noexcept;
-template void GuardedLinks<float>::weaken(const Link&,
-                                          float,
-                                          Motion&,
-                                          GuardedState<float>&) noexcept;
-template void GuardedLinks<double>::weaken(const Link&,
-                                           double,
-                                           Motion&,
-                                           GuardedState<double>&) noexcept;
-template void GuardedLinks<float>::settleDebts(const NearLinks<float>&,
-                                               const GuardedView<float>&,
-                                               GuardedState<float>*) noexcept;
-template void GuardedLinks<double>::settleDebts(const NearLinks<double>&,
-                                                const GuardedView<double>&,
-                                                GuardedState<double>*) noexcept;
+template std::size_t EnergyStableLinks<float>::rootOf(std::size_t) noexcept;
+template std::size_t EnergyStableLinks<double>::rootOf(std::size_t) noexcept;
+template void EnergyStableLinks<float>::joinThoseThatShare(const NearLinks<float>&,
+                                                           const EnergyStableView<float>&) noexcept;
+template void EnergyStableLinks<double>::joinThoseThatShare(
+    const NearLinks<double>&, const EnergyStableView<double>&) noexcept;
+template void EnergyStableLinks<float>::weaken(const Link&,
+                                               float,
+                                               Motion&,
+                                               EnergyStableState<float>&) noexcept;
+template void EnergyStableLinks<double>::weaken(const Link&,
+                                                double,
+                                                Motion&,
+                                                EnergyStableState<double>&) noexcept;
+template void EnergyStableLinks<float>::settleDebts(const NearLinks<float>&,
+                                                    const EnergyStableView<float>&,
+                                                    EnergyStableState<float>*) noexcept;
+template void EnergyStableLinks<double>::settleDebts(const NearLinks<double>&,
+                                                     const EnergyStableView<double>&,
+                                                     EnergyStableState<double>*) noexcept;
 
 }  // namespace ergotic::physics

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "physics/engine/guarded.hpp"
+#include "physics/engine/energy_stable.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -13,7 +13,7 @@ namespace {
 /// Sets the direction of a link along u. Without a length it has none, and no force.
 /// \return the length, with the sign `sense`
 template <class Real>
-Real direct(const Real (&u)[3], Real sense, GuardedMotion<Real>& m) noexcept {
+Real direct(const Real (&u)[3], Real sense, EnergyStableMotion<Real>& m) noexcept {
   const Real length = std::sqrt(u[0] * u[0] + u[1] * u[1] + u[2] * u[2]);
   for (int k = 0; k < 3; ++k) {
     m.gradient[k] = length > Real(0) ? sense * u[k] / length : Real(0);
@@ -24,10 +24,10 @@ Real direct(const Real (&u)[3], Real sense, GuardedMotion<Real>& m) noexcept {
 }  // namespace
 
 template <class Real>
-GuardedLinks<Real>::GuardedLinks(const std::vector<GuardedLink>& links,
-                                 std::vector<GuardedModule<Real>>& modules)
+EnergyStableLinks<Real>::EnergyStableLinks(const std::vector<EnergyStableLink>& links,
+                                           std::vector<EnergyStableModule<Real>>& modules)
     : motions_(links.size()), clusters_(links.size()), modules_(modules) {
-  for (const GuardedLink& link : links) {
+  for (const EnergyStableLink& link : links) {
     const bool euclidean = link.dimensions > 0;
     if (link.sticks) {
       sticking_.push_back(links_.size());
@@ -46,14 +46,14 @@ GuardedLinks<Real>::GuardedLinks(const std::vector<GuardedLink>& links,
 
 /// Terms of one module lie side by side; a coordinate that both ends reach becomes one term.
 template <class Real>
-ERGOTIC_REALTIME void GuardedLinks<Real>::setTerms(std::size_t link,
-                                                   const GuardedTerm* terms,
-                                                   std::size_t count,
-                                                   const double (&offset)[3]) noexcept {
+ERGOTIC_REALTIME void EnergyStableLinks<Real>::setTerms(std::size_t link,
+                                                        const EnergyStableTerm* terms,
+                                                        std::size_t count,
+                                                        const double (&offset)[3]) noexcept {
   Link& to = links_[link];
   Term* const first = terms_.data() + to.first;
   Term* last = first;
-  for (const GuardedTerm* t = terms; t != terms + count; ++t) {
+  for (const EnergyStableTerm* t = terms; t != terms + count; ++t) {
     Term* same = std::find_if(first, last, [t](const Term& k) { return k.slot == t->slot; });
     if (same == last) {
       Term* after = first;
@@ -76,21 +76,22 @@ ERGOTIC_REALTIME void GuardedLinks<Real>::setTerms(std::size_t link,
 }
 
 template <class Real>
-bool isIdle(const GuardedView<Real>& view, std::size_t link) noexcept {
+bool isIdle(const EnergyStableView<Real>& view, std::size_t link) noexcept {
   return view.idle != nullptr && view.idle[link] != 0;
 }
 
 template <class Real>
-bool GuardedLinks<Real>::isFree(const GuardedView<Real>& view, const Term& term) const noexcept {
+bool EnergyStableLinks<Real>::isFree(const EnergyStableView<Real>& view,
+                                     const Term& term) const noexcept {
   return term.slow_section < 0 && view.inverse_mass[term.module] > Real(0);
 }
 
 /// Elongation or compression and its direction.
 template <class Real>
-void GuardedLinks<Real>::place(const GuardedView<Real>& view,
-                               const GuardedLaw<Real>& law,
-                               const Link& link,
-                               Motion& m) const noexcept {
+void EnergyStableLinks<Real>::place(const EnergyStableView<Real>& view,
+                                    const EnergyStableLaw<Real>& law,
+                                    const Link& link,
+                                    Motion& m) const noexcept {
   Real u[3] = {link.offset[0], link.offset[1], link.offset[2]};
   for (std::size_t t = link.first; t < link.first + link.count; ++t) {
     const Term& term = terms_[t];
@@ -110,20 +111,20 @@ void GuardedLinks<Real>::place(const GuardedView<Real>& view,
 
 /// The step of a module to come.
 template <class Real>
-Real stepOf(const GuardedView<Real>& v, int i, Real now) noexcept {
+Real stepOf(const EnergyStableView<Real>& v, int i, Real now) noexcept {
   return now - (v.lose[i] * now + v.pull[i] * v.x[i]) + (v.inverse_mass[i] * v.f[i] + v.drift[i]);
 }
 
 /// How far a module of a slower section goes in this step of the link: in the step that this began
 /// with, all of its way. Friction that sticks takes it to go evenly, or it would stick to leaps.
 template <class Real, class Link>
-Real heldStepOf(const GuardedView<Real>& v, const Link& link, int section, Real d) noexcept {
+Real heldStepOf(const EnergyStableView<Real>& v, const Link& link, int section, Real d) noexcept {
   return link.sticks ? link.share * d : v.due[section] == 0 ? Real(0) : d;
 }
 
 template <class Real>
-typename GuardedLinks<Real>::Course GuardedLinks<Real>::courseOf(const GuardedView<Real>& v,
-                                                                 const Link& link) const noexcept {
+typename EnergyStableLinks<Real>::Course EnergyStableLinks<Real>::courseOf(
+    const EnergyStableView<Real>& v, const Link& link) const noexcept {
   Course c;
   for (std::size_t t = link.first; t < link.first + link.count; ++t) {
     const Term& term = terms_[t];
@@ -146,9 +147,9 @@ typename GuardedLinks<Real>::Course GuardedLinks<Real>::courseOf(const GuardedVi
 
 /// A contact that closes within this step begins to push in it.
 template <class Real>
-bool pushes(const GuardedMotion<Real>& m,
-            const GuardedLaw<Real>& law,
-            GuardedState<Real>& state) noexcept {
+bool pushes(const EnergyStableMotion<Real>& m,
+            const EnergyStableLaw<Real>& law,
+            EnergyStableState<Real>& state) noexcept {
   if (law.isContact()) {
     return m.p - std::min(Real(0), m.coasting / Real(2)) > Real(0);
   }
@@ -157,10 +158,11 @@ bool pushes(const GuardedMotion<Real>& m,
 
 /// Measures the position of the link, its opening without its own force, and whether it is active.
 template <class Real>
-GuardedMotion<Real> GuardedLinks<Real>::measure(const GuardedView<Real>& view,
-                                                const GuardedLaw<Real>& law,
-                                                const Link& link,
-                                                GuardedState<Real>& state) const noexcept {
+EnergyStableMotion<Real> EnergyStableLinks<Real>::measure(
+    const EnergyStableView<Real>& view,
+    const EnergyStableLaw<Real>& law,
+    const Link& link,
+    EnergyStableState<Real>& state) const noexcept {
   Motion m;
   m.is_friction = law.isFriction();
   const Course c = courseOf(view, link);
@@ -189,17 +191,17 @@ GuardedMotion<Real> GuardedLinks<Real>::measure(const GuardedView<Real>& view,
 
 /// Force on a coordinate per force of the link.
 template <class Real>
-Real GuardedLinks<Real>::leverOf(const Term& term, const Motion& m) noexcept {
+Real EnergyStableLinks<Real>::leverOf(const Term& term, const Motion& m) noexcept {
   return -(term.weight[0] * m.gradient[0] + term.weight[1] * m.gradient[1] +
            term.weight[2] * m.gradient[2]);
 }
 
 /// Counts it, with its force of the last step, on each module.
 template <class Real>
-void GuardedLinks<Real>::countActive(const GuardedView<Real>& view,
-                                     const Link& link,
-                                     const Motion& m,
-                                     Real last) noexcept {
+void EnergyStableLinks<Real>::countActive(const EnergyStableView<Real>& view,
+                                          const Link& link,
+                                          const Motion& m,
+                                          Real last) noexcept {
   for (std::size_t t = link.first; t < link.first + link.count; ++t) {
     const Term& term = terms_[t];
     if (m.is_active && isFree(view, term)) {
@@ -212,9 +214,9 @@ void GuardedLinks<Real>::countActive(const GuardedView<Real>& view,
 
 /// How far a force opens the link, alone and if all links of its modules act as it does.
 template <class Real>
-void GuardedLinks<Real>::yieldOf(const GuardedView<Real>& view,
-                                 const Link& link,
-                                 Motion& m) const noexcept {
+void EnergyStableLinks<Real>::yieldOf(const EnergyStableView<Real>& view,
+                                      const Link& link,
+                                      Motion& m) const noexcept {
   for (std::size_t t = link.first; t < link.first + link.count; ++t) {
     const Term& term = terms_[t];
     if (isFree(view, term)) {
@@ -227,7 +229,7 @@ void GuardedLinks<Real>::yieldOf(const GuardedView<Real>& view,
 }
 
 template <class Real>
-void GuardedLinks<Real>::load(const Link& link, const Motion& m) noexcept {
+void EnergyStableLinks<Real>::load(const Link& link, const Motion& m) noexcept {
   for (std::size_t t = link.first; t < link.first + link.count; ++t) {
     const Term& term = terms_[t];
     modules_[at(term.module)].load[term.component] += leverOf(term, m) * m.total();
@@ -237,11 +239,11 @@ void GuardedLinks<Real>::load(const Link& link, const Motion& m) noexcept {
 /// The others on its masses are expected to do what they did in the last step, and as much more as
 /// this one does: at rest that is exact, and on an impact each of c links stops its part.
 template <class Real>
-void GuardedLinks<Real>::expectOthers(const GuardedView<Real>& view,
-                                      const Link& link,
-                                      bool is_contact,
-                                      Real last,
-                                      Motion& m) const noexcept {
+void EnergyStableLinks<Real>::expectOthers(const EnergyStableView<Real>& view,
+                                           const Link& link,
+                                           bool is_contact,
+                                           Real last,
+                                           Motion& m) const noexcept {
   for (std::size_t t = link.first; t < link.first + link.count; ++t) {
     const Term& term = terms_[t];
     const Module& module = modules_[at(term.module)];
@@ -257,10 +259,10 @@ void GuardedLinks<Real>::expectOthers(const GuardedView<Real>& view,
 
 /// Now that all forces are known it pays for what they really do, not for what was expected.
 template <class Real>
-void GuardedLinks<Real>::correctCharge(const GuardedView<Real>& view,
-                                       const Link& link,
-                                       Motion& m,
-                                       GuardedState<Real>& state) const noexcept {
+void EnergyStableLinks<Real>::correctCharge(const EnergyStableView<Real>& view,
+                                            const Link& link,
+                                            Motion& m,
+                                            EnergyStableState<Real>& state) const noexcept {
   Real real = Real(0);
   for (std::size_t t = link.first; t < link.first + link.count; ++t) {
     const Term& term = terms_[t];
@@ -276,10 +278,10 @@ void GuardedLinks<Real>::correctCharge(const GuardedView<Real>& view,
 
 /// Exerts the forces of all links except frictions that stick.
 template <class Real>
-void GuardedLinks<Real>::exertOthers(const NearLinks<Real>& near,
-                                     const GuardedView<Real>& view,
-                                     const GuardedLaw<Real>* laws,
-                                     GuardedState<Real>* states) noexcept {
+void EnergyStableLinks<Real>::exertOthers(const NearLinks<Real>& near,
+                                          const EnergyStableView<Real>& view,
+                                          const EnergyStableLaw<Real>* laws,
+                                          EnergyStableState<Real>* states) noexcept {
   const auto forEachOther = [&](const auto& visit) {
     for (const std::size_t l : near) {
       if (!links_[l].sticks) {
@@ -315,10 +317,10 @@ void GuardedLinks<Real>::exertOthers(const NearLinks<Real>& near,
 }
 
 template <class Real>
-ERGOTIC_REALTIME void GuardedLinks<Real>::step(const NearLinks<Real>& near,
-                                               const GuardedView<Real>& view,
-                                               const GuardedLaw<Real>* laws,
-                                               GuardedState<Real>* states) noexcept {
+ERGOTIC_REALTIME void EnergyStableLinks<Real>::step(const NearLinks<Real>& near,
+                                                    const EnergyStableView<Real>& view,
+                                                    const EnergyStableLaw<Real>* laws,
+                                                    EnergyStableState<Real>* states) noexcept {
   exertOthers(near, view, laws, states);
   for (const std::size_t l : sticking_) {
     if (!isIdle(view, l)) {
@@ -339,25 +341,26 @@ ERGOTIC_REALTIME void GuardedLinks<Real>::step(const NearLinks<Real>& near,
 }
 
 template <class Real>
-Real GuardedLinks<Real>::gapOf(std::size_t link, const GuardedState<Real>& state) const noexcept {
+Real EnergyStableLinks<Real>::gapOf(std::size_t link,
+                                    const EnergyStableState<Real>& state) const noexcept {
   const bool acts = motions_[link].is_active || state.tank > Real(0) || state.force != Real(0) ||
                     state.damper != Real(0);
   return acts ? Real(0) : -motions_[link].p;
 }
 
 template <class Real>
-void GuardedLinks<Real>::start(const GuardedView<Real>& view,
-                               const GuardedLaw<Real>* laws,
-                               GuardedState<Real>* states) const noexcept {
+void EnergyStableLinks<Real>::start(const EnergyStableView<Real>& view,
+                                    const EnergyStableLaw<Real>* laws,
+                                    EnergyStableState<Real>* states) const noexcept {
   for (std::size_t l = 0; l < links_.size(); ++l) {
     states[l].tank = stored(view, laws[l], l);
   }
 }
 
 template <class Real>
-ERGOTIC_REALTIME Real GuardedLinks<Real>::stored(const GuardedView<Real>& view,
-                                                 const GuardedLaw<Real>& law,
-                                                 std::size_t link) const noexcept {
+ERGOTIC_REALTIME Real EnergyStableLinks<Real>::stored(const EnergyStableView<Real>& view,
+                                                      const EnergyStableLaw<Real>& law,
+                                                      std::size_t link) const noexcept {
   Motion m;
   place(view, law, links_[link], m);
   const bool is_open = law.isContact() && !(m.p > Real(0));
@@ -365,17 +368,18 @@ ERGOTIC_REALTIME Real GuardedLinks<Real>::stored(const GuardedView<Real>& view,
 }
 
 template <class Real>
-ERGOTIC_REALTIME void GuardedLinks<Real>::retune(const GuardedView<Real>& view,
-                                                 const GuardedLaw<Real>* from,
-                                                 const GuardedLaw<Real>* to,
-                                                 GuardedState<Real>* states) const noexcept {
+ERGOTIC_REALTIME void EnergyStableLinks<Real>::retune(
+    const EnergyStableView<Real>& view,
+    const EnergyStableLaw<Real>* from,
+    const EnergyStableLaw<Real>* to,
+    EnergyStableState<Real>* states) const noexcept {
   for (std::size_t l = 0; l < links_.size(); ++l) {
     const Real change = stored(view, to[l], l) - stored(view, from[l], l);
     states[l].tank = std::max(Real(0), states[l].tank + change);
   }
 }
 
-template class GuardedLinks<float>;
-template class GuardedLinks<double>;
+template class EnergyStableLinks<float>;
+template class EnergyStableLinks<double>;
 
 }  // namespace ergotic::physics

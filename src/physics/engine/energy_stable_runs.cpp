@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "physics/engine/guarded_runs.hpp"
+#include "physics/engine/energy_stable_runs.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -9,21 +9,21 @@
 
 namespace ergotic::physics {
 template <class Real>
-GuardedRuns<Real>::GuardedRuns(const scene::Scene& scene,
-                               const Layout& layout,
-                               const Groups& groups,
-                               const Points<Real>& points,
-                               State<Real>& state)
+EnergyStableRuns<Real>::EnergyStableRuns(const scene::Scene& scene,
+                                         const Layout& layout,
+                                         const Groups& groups,
+                                         const Points<Real>& points,
+                                         State<Real>& state)
     : layout_(layout),
       points_(points),
       ahead_(layout.taps.empty() ? 0 : at(layout.slots())),
-      members_(guardedGroupsOf(layout)),
+      members_(energyStableGroupsOf(layout)),
       reach_(scene, layout, members_),
       pressures_(layout, members_),
       modules_(members_.empty() ? 0 : at(layout.slots())),
       tanks_(layout, members_, state),
       forces_(members_.empty() ? 0 : at(layout.slots()), Real(0)) {
-  for (const GuardedGroup& members : members_) {
+  for (const EnergyStableGroup& members : members_) {
     addLinks(scene, members, state);
     reached_.push_back(reachedBy(
         members.group == LinkRun::kHeldGroup ? groups.held : groups.running[at(members.group)]));
@@ -33,7 +33,7 @@ GuardedRuns<Real>::GuardedRuns(const scene::Scene& scene,
 /// Contacts whose ends come nearer by their own motion only, which falling asleep and places that
 /// move are not.
 template <class Real>
-bool GuardedRuns<Real>::mayWait(const scene::Scene& scene, const GuardedRef& ref) const {
+bool EnergyStableRuns<Real>::mayWait(const scene::Scene& scene, const EnergyStableRef& ref) const {
   const LinkRun& run = layout_.runs[ref.run];
   const auto isAwake = [&](int section) { return scene.sections[at(section)].sleep_energy == 0.0; };
   const auto isThis = [&](const Follower& follower) {
@@ -45,16 +45,16 @@ bool GuardedRuns<Real>::mayWait(const scene::Scene& scene, const GuardedRef& ref
 }
 
 template <class Real>
-void GuardedRuns<Real>::addLinks(const scene::Scene& scene,
-                                 const GuardedGroup& members,
-                                 State<Real>& state) {
+void EnergyStableRuns<Real>::addLinks(const scene::Scene& scene,
+                                      const EnergyStableGroup& members,
+                                      State<Real>& state) {
   const std::vector<double> somewhere(2 * layout_.places.size(), 0.0);
-  std::vector<GuardedLink> links;
+  std::vector<EnergyStableLink> links;
   std::vector<OnPlaces> on_places;
   std::vector<std::size_t> taps;
   std::vector<int> slow;
-  GuardedReach::Terms terms;  // has room for those of any link then
-  for (const GuardedRef& ref : members.links) {
+  EnergyStableReach::Terms terms;  // has room for those of any link then
+  for (const EnergyStableRef& ref : members.links) {
     const LinkRun& run = layout_.runs[ref.run];
     if (reach_.isOnPlace(ref)) {
       constexpr double kNowhere = std::numeric_limits<double>::quiet_NaN();
@@ -73,30 +73,31 @@ void GuardedRuns<Real>::addLinks(const scene::Scene& scene,
   }
   std::sort(taps.begin(), taps.end());
   taps.erase(std::unique(taps.begin(), taps.end()), taps.end());
-  const std::string name = "guarded" + std::to_string(links_.size());
+  const std::string name = "energy_stable" + std::to_string(links_.size());
   NearLinks<Real> near(links);
-  const std::size_t states_at = state.arena().template add<GuardedState<Real>>(name, links.size());
+  const std::size_t states_at =
+      state.arena().template add<EnergyStableState<Real>>(name, links.size());
   const std::size_t clearances_at =
       near.waiting() == 0 ? 0
                           : state.arena().template add<Real>(name + ".clearances", near.waiting());
-  links_.push_back({GuardedLinks<Real>(links, modules_), std::move(near), std::move(on_places),
+  links_.push_back({EnergyStableLinks<Real>(links, modules_), std::move(near), std::move(on_places),
                     taps, std::vector<unsigned char>(links.size(), 0), slow,
                     std::vector<unsigned char>(layout_.sections.size(), 0), states_at,
                     clearances_at, std::move(terms)});
 }
 
-/// The ends of guarded links, all points, and the modules that points hand their forces to. Taps
-/// hand theirs to their modules themselves.
+/// The ends of energy-stable links, all points, and the modules that points hand their forces to.
+/// Taps hand theirs to their modules themselves.
 template <class Real>
-std::vector<int> GuardedRuns<Real>::reachedBy(const Group& group) const {
+std::vector<int> EnergyStableRuns<Real>::reachedBy(const Group& group) const {
   std::vector<int> reached;
   const auto add = [&reached](int slot, int stride, int count) {
     for (int k = 0; k < count; ++k) {
       reached.push_back(slot + k * stride);
     }
   };
-  for (const std::size_t g : group.guarded) {
-    for (const GuardedRef& ref : members_[g].links) {
+  for (const std::size_t g : group.energy_stable) {
+    for (const EnergyStableRef& ref : members_[g].links) {
       const LinkRun& run = layout_.runs[ref.run];
       const LinkEnds& ends = run.ends[ref.link];
       add(ends.a, run.stride_a, std::max(1, run.dimensions));
@@ -122,9 +123,9 @@ std::vector<int> GuardedRuns<Real>::reachedBy(const Group& group) const {
 
 /// \pre forces of everything else are on the modules
 template <class Real>
-void GuardedRuns<Real>::lookAhead(std::size_t g,
-                                  const CoefficientsOf<Real>& c,
-                                  const State<Real>& state) noexcept {
+void EnergyStableRuns<Real>::lookAhead(std::size_t g,
+                                       const CoefficientsOf<Real>& c,
+                                       const State<Real>& state) noexcept {
   for (const std::size_t t : links_[g].taps) {
     for (int k = 0; k < layout_.taps[t].dimensions; ++k) {
       ahead_[at(layout_.taps[t].slot + k)] =
@@ -134,10 +135,10 @@ void GuardedRuns<Real>::lookAhead(std::size_t g,
 }
 
 template <class Real>
-GuardedView<Real> GuardedRuns<Real>::viewOf(const Links& links,
-                                            const CoefficientsOf<Real>& c,
-                                            State<Real>& state) const noexcept {
-  GuardedView<Real> view;
+EnergyStableView<Real> EnergyStableRuns<Real>::viewOf(const Links& links,
+                                                      const CoefficientsOf<Real>& c,
+                                                      State<Real>& state) const noexcept {
+  EnergyStableView<Real> view;
   view.x = state.x();
   view.d = state.d();
   view.f = state.f();
@@ -152,8 +153,8 @@ GuardedView<Real> GuardedRuns<Real>::viewOf(const Links& links,
 }
 
 template <class Real>
-void GuardedRuns<Real>::followPlaces(std::size_t g, State<Real>& state) noexcept {
-  GuardedReach::Terms& to = links_[g].terms;
+void EnergyStableRuns<Real>::followPlaces(std::size_t g, State<Real>& state) noexcept {
+  EnergyStableReach::Terms& to = links_[g].terms;
   for (OnPlaces& on : links_[g].on_places) {
     std::array<double, 4> here{};
     for (std::size_t end = 0; end < 2; ++end) {
@@ -170,7 +171,7 @@ void GuardedRuns<Real>::followPlaces(std::size_t g, State<Real>& state) noexcept
 }
 
 template <class Real>
-void GuardedRuns<Real>::markIdle(std::size_t g, State<Real>& state) noexcept {
+void EnergyStableRuns<Real>::markIdle(std::size_t g, State<Real>& state) noexcept {
   for (const std::size_t l : links_[g].near) {
     const LinkRun& run = layout_.runs[members_[g].links[l].run];
     const bool is_inside = run.section_a == run.section_b;
@@ -179,7 +180,7 @@ void GuardedRuns<Real>::markIdle(std::size_t g, State<Real>& state) noexcept {
 }
 
 template <class Real>
-void GuardedRuns<Real>::markDue(std::size_t g, std::int64_t began) noexcept {
+void EnergyStableRuns<Real>::markDue(std::size_t g, std::int64_t began) noexcept {
   for (const int section : links_[g].slow) {
     links_[g].due[at(section)] = layout_.isDue(section, began) ? 1 : 0;
   }
@@ -187,13 +188,13 @@ void GuardedRuns<Real>::markDue(std::size_t g, std::int64_t began) noexcept {
 
 /// Hands the forces to both ends, as explicit links do.
 template <class Real>
-void GuardedRuns<Real>::exchange(std::size_t g,
-                                 std::int64_t began,
-                                 const Stepper<Real>& stepper,
-                                 State<Real>& state) noexcept {
-  const GuardedState<Real>* all = states(g, state);
+void EnergyStableRuns<Real>::exchange(std::size_t g,
+                                      std::int64_t began,
+                                      const Stepper<Real>& stepper,
+                                      State<Real>& state) noexcept {
+  const EnergyStableState<Real>* all = states(g, state);
   for (const std::size_t l : links_[g].near) {
-    const GuardedRef& ref = members_[g].links[l];
+    const EnergyStableRef& ref = members_[g].links[l];
     const LinkRun& run = layout_.runs[ref.run];
     if (links_[g].idle[l] != 0) {
       continue;
@@ -215,8 +216,8 @@ void GuardedRuns<Real>::exchange(std::size_t g,
 
 /// True if a force of a link has still to be counted, or to be felt by a slower end.
 template <class Real>
-bool GuardedRuns<Real>::remembersForce(const GuardedRef& ref,
-                                       const State<Real>& state) const noexcept {
+bool EnergyStableRuns<Real>::remembersForce(const EnergyStableRef& ref,
+                                            const State<Real>& state) const noexcept {
   const LinkRun& run = layout_.runs[ref.run];
   const LinkMemory<const Real> memory = state.memory(ref.run);
   const auto isAny = [&](const Real* forces) {
@@ -232,12 +233,12 @@ bool GuardedRuns<Real>::remembersForce(const GuardedRef& ref,
 
 /// How far apart the ends of contacts are that have no force, and have told a slower end so.
 template <class Real>
-void GuardedRuns<Real>::rememberGaps(std::size_t g, State<Real>& state) noexcept {
+void EnergyStableRuns<Real>::rememberGaps(std::size_t g, State<Real>& state) noexcept {
   if (links_[g].near.waiting() == 0) {
     return;
   }
   const auto gapOf = [&](std::size_t l) noexcept {
-    const GuardedRef& ref = members_[g].links[l];
+    const EnergyStableRef& ref = members_[g].links[l];
     return remembersForce(ref, state) ? Real(0) : links_[g].links.gapOf(l, states(g, state)[l]);
   };
   links_[g].near.remember(gapOf, clearances(g, state));
@@ -245,14 +246,14 @@ void GuardedRuns<Real>::rememberGaps(std::size_t g, State<Real>& state) noexcept
 
 /// Closes the energy accounts: a run stores what its tanks hold, the rest counts as dissipated.
 template <class Real>
-void GuardedRuns<Real>::closeAccounts(std::size_t g,
-                                      bool starts,
-                                      State<Real>& state) const noexcept {
+void EnergyStableRuns<Real>::closeAccounts(std::size_t g,
+                                           bool starts,
+                                           State<Real>& state) const noexcept {
   if (!state.isMetered()) {
     return;
   }
-  const GuardedState<Real>* all = states(g, state);
-  const std::vector<GuardedRef>& links = members_[g].links;
+  const EnergyStableState<Real>* all = states(g, state);
+  const std::vector<EnergyStableRef>& links = members_[g].links;
   for (std::size_t l = 0; l < links.size();) {
     const std::size_t run = links[l].run;
     double stored = 0.0;
@@ -270,18 +271,18 @@ void GuardedRuns<Real>::closeAccounts(std::size_t g,
 }
 
 template <class Real>
-ERGOTIC_REALTIME void GuardedRuns<Real>::step(const Group& group,
-                                              std::int64_t first,
-                                              std::int64_t last,
-                                              const CoefficientsOf<Real>& c,
-                                              const Stepper<Real>& stepper,
-                                              State<Real>& state) noexcept {
+ERGOTIC_REALTIME void EnergyStableRuns<Real>::step(const Group& group,
+                                                   std::int64_t first,
+                                                   std::int64_t last,
+                                                   const CoefficientsOf<Real>& c,
+                                                   const Stepper<Real>& stepper,
+                                                   State<Real>& state) noexcept {
   bool any = false;
-  for (const std::size_t g : group.guarded) {
-    GuardedView<Real> view = viewOf(links_[g], c, state);
+  for (const std::size_t g : group.energy_stable) {
+    EnergyStableView<Real> view = viewOf(links_[g], c, state);
     if (first == 0) {
       followPlaces(g, state);
-      links_[g].links.start(view, c.guarded[g].data(), states(g, state));
+      links_[g].links.start(view, c.energy_stable[g].data(), states(g, state));
       closeAccounts(g, true, state);
       tanks_.start(g, c, state);
     }
@@ -296,8 +297,8 @@ ERGOTIC_REALTIME void GuardedRuns<Real>::step(const Group& group,
     markIdle(g, state);
     const std::int64_t began = last + 1 - members_[g].divisor;
     markDue(g, began);
-    view.pressed = pressures_.read(g, c.guarded[g].data(), state);
-    links_[g].links.step(links_[g].near, view, c.guarded[g].data(), states(g, state));
+    view.pressed = pressures_.read(g, c.energy_stable[g].data(), state);
+    links_[g].links.step(links_[g].near, view, c.energy_stable[g].data(), states(g, state));
     exchange(g, began, stepper, state);
     rememberGaps(g, state);
     closeAccounts(g, false, state);
@@ -305,11 +306,11 @@ ERGOTIC_REALTIME void GuardedRuns<Real>::step(const Group& group,
   if (any) {
     points_.scatterPlaces(group, forces_.data(), state.places());
     points_.scatterTaps(group, forces_.data(), state.f());
-    for (const int slot : reached_[group.guarded.front()]) {
+    for (const int slot : reached_[group.energy_stable.front()]) {
       state.f()[slot] += forces_[at(slot)];
       forces_[at(slot)] = Real(0);
     }
-    for (const std::size_t g : group.guarded) {
+    for (const std::size_t g : group.energy_stable) {
       if (endsStep(g, last)) {
         tanks_.answer(g, c, state);
       }
@@ -318,11 +319,11 @@ ERGOTIC_REALTIME void GuardedRuns<Real>::step(const Group& group,
 }
 
 template <class Real>
-ERGOTIC_REALTIME void GuardedRuns<Real>::retune(const CoefficientsOf<Real>& from,
-                                                const CoefficientsOf<Real>& to,
-                                                State<Real>& state) noexcept {
+ERGOTIC_REALTIME void EnergyStableRuns<Real>::retune(const CoefficientsOf<Real>& from,
+                                                     const CoefficientsOf<Real>& to,
+                                                     State<Real>& state) noexcept {
   for (std::size_t g = 0; g < links_.size(); ++g) {
-    const GuardedView<Real> view = viewOf(links_[g], from, state);
+    const EnergyStableView<Real> view = viewOf(links_[g], from, state);
     const auto add = [&](double sign) {
       for (std::size_t l = 0; state.isMetered() && l < members_[g].links.size(); ++l) {
         state.work()[members_[g].links[l].run].stored +=
@@ -330,7 +331,8 @@ ERGOTIC_REALTIME void GuardedRuns<Real>::retune(const CoefficientsOf<Real>& from
       }
     };
     add(-1.0);
-    links_[g].links.retune(view, from.guarded[g].data(), to.guarded[g].data(), states(g, state));
+    links_[g].links.retune(view, from.energy_stable[g].data(), to.energy_stable[g].data(),
+                           states(g, state));
     std::fill_n(clearances(g, state), links_[g].near.waiting(), Real(0));
     add(1.0);
   }
@@ -338,21 +340,21 @@ ERGOTIC_REALTIME void GuardedRuns<Real>::retune(const CoefficientsOf<Real>& from
 }
 
 template <class Real>
-ERGOTIC_REALTIME bool GuardedRuns<Real>::isFinite(const State<Real>& state) const noexcept {
+ERGOTIC_REALTIME bool EnergyStableRuns<Real>::isFinite(const State<Real>& state) const noexcept {
   return tanks_.areFinite(state) &&
          std::all_of(links_.begin(), links_.end(), [&state](const Links& group) {
-           const auto* all = state.arena().template at<GuardedState<Real>>(group.states_at);
-           return std::all_of(all, all + group.links.size(), [](const GuardedState<Real>& link) {
-             return std::isfinite(link.tank);
-           });
+           const auto* all = state.arena().template at<EnergyStableState<Real>>(group.states_at);
+           return std::all_of(
+               all, all + group.links.size(),
+               [](const EnergyStableState<Real>& link) { return std::isfinite(link.tank); });
          });
 }
 
 template <class Real>
-std::vector<GuardReport> GuardedRuns<Real>::makeReports() const {
-  std::vector<GuardReport> reports;
-  for (const GuardedGroup& members : members_) {
-    for (const GuardedRef& ref : members.links) {
+std::vector<TankReport> EnergyStableRuns<Real>::makeReports() const {
+  std::vector<TankReport> reports;
+  for (const EnergyStableGroup& members : members_) {
+    for (const EnergyStableRef& ref : members.links) {
       reports.push_back({layout_.runs[ref.run].lias[ref.link], 0, 0});
     }
   }
@@ -361,11 +363,11 @@ std::vector<GuardReport> GuardedRuns<Real>::makeReports() const {
 }
 
 template <class Real>
-ERGOTIC_REALTIME void GuardedRuns<Real>::read(const State<Real>& state,
-                                              std::vector<GuardReport>& to) const noexcept {
+ERGOTIC_REALTIME void EnergyStableRuns<Real>::read(const State<Real>& state,
+                                                   std::vector<TankReport>& to) const noexcept {
   std::size_t next = 0;
   for (const Links& group : links_) {
-    const auto* all = state.arena().template at<GuardedState<Real>>(group.states_at);
+    const auto* all = state.arena().template at<EnergyStableState<Real>>(group.states_at);
     for (std::size_t l = 0; l < group.links.size(); ++l) {
       to[next].active = wholeOf(all[l].active);
       to[next].clipped = wholeOf(all[l].clipped);
@@ -375,7 +377,7 @@ ERGOTIC_REALTIME void GuardedRuns<Real>::read(const State<Real>& state,
   tanks_.read(state, to.data() + next);
 }
 
-template class GuardedRuns<float>;
-template class GuardedRuns<double>;
+template class EnergyStableRuns<float>;
+template class EnergyStableRuns<double>;
 
 }  // namespace ergotic::physics

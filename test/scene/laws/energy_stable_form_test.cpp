@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "scene/laws/guarded_form.hpp"
+#include "scene/laws/energy_stable_form.hpp"
 
 #include "support/test.hpp"
 
@@ -7,7 +7,7 @@ namespace ergotic::scene {
 namespace {
 
 template <class Real = double>
-GuardedLaw<Real> lawOf(LiaType type) {
+EnergyStableLaw<Real> lawOf(LiaType type) {
   Lia lia;
   lia.type = type;
   lia.stiffness = {3.0};
@@ -16,11 +16,11 @@ GuardedLaw<Real> lawOf(LiaType type) {
   lia.law.edit().tipping_point = std::sqrt((9.0 - 3.0) / 5.0);
   lia.law.edit().exponent = {1.7};
   lia.law.edit().width = {5.0};
-  return GuardedLaw<Real>::make(Scene{}, lia, Units{});
+  return EnergyStableLaw<Real>::make(Scene{}, lia, Units{});
 }
 
-/// A guard that lets a damper drive would certify what grows.
-TEST(GuardedFormTest, DampingIsNeverNegative) {
+/// A scheme that lets a damper drive would certify what grows.
+TEST(EnergyStableFormTest, DampingIsNeverNegative) {
   for (const LiaType type :
        {LiaType::kSpringDamper, LiaType::kQuadratic, LiaType::kCubic, LiaType::kClippedCubic,
         LiaType::kContact, LiaType::kPowerContact, LiaType::kCubicContact, LiaType::kPluck,
@@ -31,7 +31,7 @@ TEST(GuardedFormTest, DampingIsNeverNegative) {
     lia.law.edit().tipping_point = 0.5;
     lia.law.edit().width = {2.0};
     lia.law.edit().table.points = {{-2.0, -2.0}, {2.0, 2.0}};
-    const auto law = GuardedLaw<double>::make(Scene{}, lia, Units{});
+    const auto law = EnergyStableLaw<double>::make(Scene{}, lia, Units{});
     for (const double p : {0.1, 0.9}) {
       EXPECT_EQ(law.dampingAt(p, 0.1), 0.0) << static_cast<int>(type) << " " << p;
     }
@@ -39,7 +39,7 @@ TEST(GuardedFormTest, DampingIsNeverNegative) {
 }
 
 /// By the midpoint rule.
-double meanOf(const GuardedLaw<double>& law, double p, double w) {
+double meanOf(const EnergyStableLaw<double>& law, double p, double w) {
   constexpr int kParts = 20000;
   double sum = 0.0;
   for (int i = 0; i < kParts; ++i) {
@@ -49,12 +49,12 @@ double meanOf(const GuardedLaw<double>& law, double p, double w) {
   return sum * 2.0 / kParts;
 }
 
-TEST(GuardedFormTest, SlopePotentialAndMeanAreThoseOfThePush) {
+TEST(EnergyStableFormTest, SlopePotentialAndMeanAreThoseOfThePush) {
   constexpr double kStep = 1e-5;
   for (const LiaType type : {LiaType::kSpringDamper, LiaType::kQuadratic, LiaType::kCubic,
                              LiaType::kClippedCubic, LiaType::kContact, LiaType::kPowerContact,
                              LiaType::kCubicContact, LiaType::kFelt, LiaType::kPluck}) {
-    const GuardedLaw<double> law = lawOf(type);
+    const EnergyStableLaw<double> law = lawOf(type);
     const std::string what = std::to_string(static_cast<int>(type));
     for (const double p : {0.2, 0.7, 1.6}) {
       const double force = law.push(p).force;
@@ -75,11 +75,11 @@ TEST(GuardedFormTest, SlopePotentialAndMeanAreThoseOfThePush) {
 }
 
 /// Down to its bottom at 0 a table of straight lines gives what lies below them.
-TEST(GuardedFormTest, PotentialOfATableIsWhatLiesBelowIt) {
+TEST(EnergyStableFormTest, PotentialOfATableIsWhatLiesBelowIt) {
   Lia lia;
   lia.type = LiaType::kTable;
   lia.law.edit().table.points = {{-1.0, -4.0}, {0.0, 0.0}, {1.0, 1.0}, {3.0, 2.0}};
-  const auto law = GuardedLaw<double>::make(Scene{}, lia, Units{});
+  const auto law = EnergyStableLaw<double>::make(Scene{}, lia, Units{});
   EXPECT_NEAR(law.potential(-1.0), 2.0, 1e-12);
   EXPECT_NEAR(law.potential(0.0), 0.0, 1e-12);
   EXPECT_NEAR(law.potential(0.5), 0.125, 1e-12);
@@ -88,10 +88,10 @@ TEST(GuardedFormTest, PotentialOfATableIsWhatLiesBelowIt) {
 }
 
 /// Beside a line that rises, what pushes out of a table ends beyond it, on either side.
-TEST(GuardedFormTest, BottomMayLieBeyondEitherEndOfATable) {
+TEST(EnergyStableFormTest, BottomMayLieBeyondEitherEndOfATable) {
   for (const double push : {-1.0, 1.0}) {
     const Curve curve = interpolate({{{-1.0, push}, {1.0, push}}, false});
-    const GuardedCurve<double> well(curve, 0.0, 0.1);
+    const EnergyStableCurve<double> well(curve, 0.0, 0.1);
     const double bottom = -10.0 * push;
     EXPECT_NEAR(well.at(bottom).force, 0.0, 1e-12);
     EXPECT_NEAR(well.potential(bottom), 0.0, 1e-12);
@@ -103,7 +103,7 @@ template <class Real>
 void expectTheLawWhereNothingMoves() {
   for (const LiaType type :
        {LiaType::kContact, LiaType::kPowerContact, LiaType::kCubicContact, LiaType::kFelt}) {
-    const GuardedLaw<Real> law = lawOf<Real>(type);
+    const EnergyStableLaw<Real> law = lawOf<Real>(type);
     const double least = std::log10(std::numeric_limits<Real>::denorm_min());
     for (double i = least; i < -1.0; i += 1.3) {
       const Real p = static_cast<Real>(std::pow(10.0, i));
@@ -122,12 +122,12 @@ void expectTheLawWhereNothingMoves() {
   }
 }
 
-TEST(GuardedFormTest, MeanIsTheLawWhereNothingMoves) {
+TEST(EnergyStableFormTest, MeanIsTheLawWhereNothingMoves) {
   expectTheLawWhereNothingMoves<float>();
   expectTheLawWhereNothingMoves<double>();
 }
 
-TEST(GuardedFormTest, HugeOverlapsAreFinite) {
+TEST(EnergyStableFormTest, HugeOverlapsAreFinite) {
   for (const double p : {1e100, 1e150, 1e300}) {
     for (const double w : {0.0, 1e100, 1e300}) {
       EXPECT_TRUE(std::isfinite(lawOf(LiaType::kContact).meanPush(p, w))) << p << " " << w;

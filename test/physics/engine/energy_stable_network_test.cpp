@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The energy of many guarded links that share masses.
+// The energy of many energy-stable links that share masses.
 #include <random>
 
 #include "support/physics.hpp"
@@ -29,11 +29,11 @@ struct Closed {
     EXPECT_LT(std::abs(energies.residual), 1e-11 * before) << what;
   }
   double clipped() const {
-    std::vector<GuardReport> reports = player.instrument->makeGuardReports();
-    player.instrument->readGuards(reports);
+    std::vector<TankReport> reports = player.instrument->makeTankReports();
+    player.instrument->readTanks(reports);
     double active = 0.0;
     double clipped = 0.0;
-    for (const GuardReport& report : reports) {
+    for (const TankReport& report : reports) {
       active += static_cast<double>(report.active);
       clipped += static_cast<double>(report.clipped);
     }
@@ -46,7 +46,7 @@ struct Closed {
 
 Lia& guardScaled(SceneBuilder& b, LiaType type, int from, int to, double kappa, double z = 0.0) {
   Lia& lia = b.scene.lias[at(b.link(type, from, to, kappa * kRate * kRate, z * kRate))];
-  lia.scheme = Scheme::kGuarded;
+  lia.scheme = Scheme::kEnergyStable;
   return lia;
 }
 
@@ -67,7 +67,7 @@ SceneBuilder stringOnBarrier(double closed_kappa, double exponent) {
   return b;
 }
 
-TEST(GuardedNetworkTest, StringOnABarrierKeepsItsEnergy) {
+TEST(EnergyStableNetworkTest, StringOnABarrierKeepsItsEnergy) {
   for (const double kappa : {0.05, 1.0, 100.0}) {
     for (const double exponent : {1.0, 1.5}) {
       Closed(stringOnBarrier(kappa, exponent))
@@ -96,7 +96,7 @@ SceneBuilder cubicChain(double amplitude) {
 
 /// Were each link charged for what it expects of its neighbours, it would lose nearly all; were it
 /// charged for its own motion alone, it would gain 10^4 times.
-TEST(GuardedNetworkTest, CubicChainKeepsItsEnergyAtAnyAmplitude) {
+TEST(EnergyStableNetworkTest, CubicChainKeepsItsEnergyAtAnyAmplitude) {
   for (const double amplitude : {0.1, 2.0, 30.0}) {
     Closed chain(cubicChain(amplitude));
     chain.expectKept(40000, std::to_string(amplitude));
@@ -105,7 +105,7 @@ TEST(GuardedNetworkTest, CubicChainKeepsItsEnergyAtAnyAmplitude) {
   }
 }
 
-TEST(GuardedNetworkTest, PointsThatShareMassesKeepTheEnergy) {
+TEST(EnergyStableNetworkTest, PointsThatShareMassesKeepTheEnergy) {
   constexpr int kMasses = 10;
   std::mt19937 random(5);
   std::uniform_real_distribution<double> anywhere(-1.0, 1.0);
@@ -165,7 +165,7 @@ SceneBuilder crowd(std::uint32_t seed, bool is_lossy) {
   return b;
 }
 
-TEST(GuardedNetworkTest, ManyThatShareMassesKeepTheirEnergyWhereNothingIsLossy) {
+TEST(EnergyStableNetworkTest, ManyThatShareMassesKeepTheirEnergyWhereNothingIsLossy) {
   for (std::uint32_t seed = 0; seed < 200; ++seed) {
     Closed(crowd(seed, false)).expectKept(2000, std::to_string(seed));
   }
@@ -173,7 +173,7 @@ TEST(GuardedNetworkTest, ManyThatShareMassesKeepTheirEnergyWhereNothingIsLossy) 
 
 /// In the first steps what is stored, told halfway between two of them, may rise by what dampers
 /// take in the other half.
-TEST(GuardedNetworkTest, ManyThatShareMassesGiveNoMoreThanTheyHad) {
+TEST(EnergyStableNetworkTest, ManyThatShareMassesGiveNoMoreThanTheyHad) {
   for (std::uint32_t seed = 0; seed < 200; ++seed) {
     Player player(crowd(seed, true).scene, {kRate, 1});
     player.tick();
@@ -189,14 +189,14 @@ TEST(GuardedNetworkTest, ManyThatShareMassesGiveNoMoreThanTheyHad) {
   }
 }
 
-TEST(GuardedNetworkTest, NegativeDampersGiveNothing) {
+TEST(EnergyStableNetworkTest, NegativeDampersGiveNothing) {
   SceneBuilder b;
   const int mass = b.mass(1.0, 0.01);
   guardScaled(b, LiaType::kSpringDamper, mass, b.ground(), 0.1, -0.05).rest_length = 0.005;
   Closed(b).expectKept(2000, "");
 }
 
-TEST(GuardedNetworkTest, DampersOnSharedMassesOnlyDissipate) {
+TEST(EnergyStableNetworkTest, DampersOnSharedMassesOnlyDissipate) {
   SceneBuilder b;
   const int wall = b.ground();
   for (int m = 1; m <= 20; ++m) {
@@ -211,9 +211,9 @@ TEST(GuardedNetworkTest, DampersOnSharedMassesOnlyDissipate) {
   const double at_start = energiesOf(player).stored;
   double energy = std::numeric_limits<double>::infinity();
   for (int n = 0; n < 2000; ++n) {
-    const std::vector<GuardedState<double>> guards = test::guardsOf(player);
+    const std::vector<EnergyStableState<double>> tanks = test::tankStatesOf(player);
     player.tick();
-    const double now = test::energyBetweenSteps(player, guards);
+    const double now = test::energyBetweenSteps(player, tanks);
     ASSERT_LE(now, energy + 1e-14 * at_start) << n;
     ASSERT_NEAR(energiesOf(player).residual, 0.0, 1e-12 * at_start) << n;
     energy = now;

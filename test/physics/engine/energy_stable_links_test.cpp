@@ -7,9 +7,10 @@
 namespace ergotic::physics {
 namespace {
 
-scene::Lia& guard(SceneBuilder& b, LiaType type, int from, int to, double k, double z = 0.0) {
+scene::Lia& energyStable(
+    SceneBuilder& b, LiaType type, int from, int to, double k, double z = 0.0) {
   scene::Lia& lia = b.scene.lias[at(b.link(type, from, to, k, z))];
-  lia.scheme = scene::Scheme::kGuarded;
+  lia.scheme = scene::Scheme::kEnergyStable;
   lia.law.edit().nonlinearity = {1e4};
   lia.law.edit().stiffness_limit = {2.0 * k};
   lia.law.edit().tipping_point = std::sqrt(k / 1e4);
@@ -25,16 +26,16 @@ scene::Lia& guard(SceneBuilder& b, LiaType type, int from, int to, double k, dou
   return lia;
 }
 
-TEST(GuardedLinksTest, BallLeavesAGuardedWallAsFastAsItCame) {
+TEST(EnergyStableLinksTest, BallLeavesAEnergyStableWallAsFastAsItCame) {
   SceneBuilder b;
   const int ball = b.mass(5e-3, -1e-3, 1.0);
-  guard(b, LiaType::kPowerContact, ball, b.ground(), 1e7);
+  energyStable(b, LiaType::kPowerContact, ball, b.ground(), 1e7);
   b.hear(ball, 0, scene::Quantity::kVelocity);
   Player player(b.scene, kRates);
   player.ticks(20);
   EXPECT_NEAR(player.heard[0].back(), -1.0, 1e-12);
-  std::vector<GuardReport> reports = player.instrument->makeGuardReports();
-  player.instrument->readGuards(reports);
+  std::vector<TankReport> reports = player.instrument->makeTankReports();
+  player.instrument->readTanks(reports);
   ASSERT_EQ(reports.size(), 1U);
   EXPECT_EQ(reports[0].lia, 0);
   EXPECT_GT(reports[0].active, 3);
@@ -47,7 +48,7 @@ constexpr LiaType kGuardable[] = {
     LiaType::kBow,          LiaType::kSmoothBow,    LiaType::kFelt,         LiaType::kConditional,
     LiaType::kOneWayPluck};
 
-TEST(GuardedLinksTest, EveryLawBalancesInEveryGeometryAndAcrossRates) {
+TEST(EnergyStableLinksTest, EveryLawBalancesInEveryGeometryAndAcrossRates) {
   for (const LiaType type : kGuardable) {
     for (const Geometry geometry : {Geometry::kScalar, Geometry::kPlane, Geometry::kSpace}) {
       SceneBuilder b;
@@ -57,10 +58,10 @@ TEST(GuardedLinksTest, EveryLawBalancesInEveryGeometryAndAcrossRates) {
       const int hand = b.slice(0);
       const int slow = b.mass(0.1, 0.0, 0.3, SceneBuilder::kGestural);
       b.spring(slow, b.ground(0.0, SceneBuilder::kGestural), 500.0, 0.2);
-      guard(b, type, hand, first + 5, 200.0, 0.1);
-      guard(b, type, slow, first + 9, 200.0, 0.1);
-      guard(b, type, first + 3, first + 6, 200.0, 0.1);
-      guard(b, type, first + 5, first + 6, 200.0);
+      energyStable(b, type, hand, first + 5, 200.0, 0.1);
+      energyStable(b, type, slow, first + 9, 200.0, 0.1);
+      energyStable(b, type, first + 3, first + 6, 200.0, 0.1);
+      energyStable(b, type, first + 5, first + 6, 200.0);
       Player player(b.scene, kRates);
       EXPECT_LT(imbalanceOf(player, 2000), 1e-10)
           << static_cast<int>(type) << " " << static_cast<int>(geometry);
@@ -76,7 +77,7 @@ int movingPlace(SceneBuilder& b, int first, int columns, int guide) {
   return place;
 }
 
-TEST(GuardedLinksTest, LinkOnAMovingPlaceBalances) {
+TEST(EnergyStableLinksTest, LinkOnAMovingPlaceBalances) {
   for (const LiaType type : {LiaType::kContact, LiaType::kCubic, LiaType::kSmoothBow}) {
     SceneBuilder b;
     const int first = b.chain(12, 1e-3, 1000.0, 0.01);
@@ -85,26 +86,26 @@ TEST(GuardedLinksTest, LinkOnAMovingPlaceBalances) {
     const int place = movingPlace(b, first, 14, hand);
     const int anvil = b.mass(0.02, 0.0, 0.1);
     b.spring(anvil, b.ground(), 100.0);
-    guard(b, type, anvil, place, 5000.0, 0.2);
-    guard(b, type, place, first + 3, 300.0);
+    energyStable(b, type, anvil, place, 5000.0, 0.2);
+    energyStable(b, type, place, first + 3, 300.0);
     Player player(b.scene, kRates);
     EXPECT_LT(imbalanceOf(player, 2000), 1e-10) << static_cast<int>(type);
   }
 }
 
 /// A point between two masses weighs 1 / sum(w^2/M).
-TEST(GuardedLinksTest, PlaceWeighsAsItsModulesDo) {
+TEST(EnergyStableLinksTest, PlaceWeighsAsItsModulesDo) {
   constexpr double kShare = 0.3;
   SceneBuilder pair;
   const int first = pair.mass(2.5e-3, -1e-3, 1.0);
   const int second = pair.mass(5e-3, -1e-3, 1.0);
   const int place = pair.point(pair.grid(first, 2), kShare);
-  guard(pair, LiaType::kContact, place, pair.ground(), 2e5);
+  energyStable(pair, LiaType::kContact, place, pair.ground(), 2e5);
   pair.hear(first, 0);
   pair.hear(second, 1);
   SceneBuilder single;
   const int ball = single.mass(1.0 / (0.49 / 2.5e-3 + 0.09 / 5e-3), -1e-3, 1.0);
-  guard(single, LiaType::kContact, ball, single.ground(), 2e5);
+  energyStable(single, LiaType::kContact, ball, single.ground(), 2e5);
   single.hear(ball);
   single.hear(ball, 1, Quantity::kVelocity);
   Player two(pair.scene, kRates);
@@ -119,7 +120,7 @@ TEST(GuardedLinksTest, PlaceWeighsAsItsModulesDo) {
 }
 
 /// Two places between the same masses: only the difference of their weights works on each.
-TEST(GuardedLinksTest, LinkBetweenPlacesOfOneStringActsByTheDifference) {
+TEST(EnergyStableLinksTest, LinkBetweenPlacesOfOneStringActsByTheDifference) {
   const auto play = [](bool by_places) {
     SceneBuilder b;
     b.mass(1.0, 0.3);
@@ -128,7 +129,7 @@ TEST(GuardedLinksTest, LinkBetweenPlacesOfOneStringActsByTheDifference) {
     const double share = by_places ? 1.0 : 0.3;  // of the elongation between the masses
     const int from = by_places ? b.point(grid, 0.3) : 0;
     const int to = by_places ? b.point(grid, 0.6) : 1;
-    Lia& lia = guard(b, LiaType::kCubic, from, to, share * share * kRate * kRate);
+    Lia& lia = energyStable(b, LiaType::kCubic, from, to, share * share * kRate * kRate);
     lia.law.edit().nonlinearity = {2.0 * std::pow(share, 4) * kRate * kRate};
     b.hear(0);
     Player player(b.scene, {kRate, 1});
@@ -143,11 +144,11 @@ TEST(GuardedLinksTest, LinkBetweenPlacesOfOneStringActsByTheDifference) {
   EXPECT_LT(difference.back(), 0.29);
 }
 
-TEST(GuardedLinksTest, EndsInOnePlaceOfSpaceDoNotPush) {
+TEST(EnergyStableLinksTest, EndsInOnePlaceOfSpaceDoNotPush) {
   SceneBuilder b;
   b.scene.sections[0].geometry = Geometry::kSpace;
   const int mass = b.mass(1.0);
-  guard(b, LiaType::kContact, mass, b.mass(1.0), 1e6).law.edit().width = {1.0};
+  energyStable(b, LiaType::kContact, mass, b.mass(1.0), 1e6).law.edit().width = {1.0};
   b.hear(mass, 0, Quantity::kVelocity);
   Player player(b.scene, kRates);
   player.tick();
@@ -155,12 +156,12 @@ TEST(GuardedLinksTest, EndsInOnePlaceOfSpaceDoNotPush) {
 }
 
 /// A hand, whose next place nobody knows, throws a ball about.
-TEST(GuardedLinksTest, WorkOfAHandIsCountedWithItsRealMotion) {
+TEST(EnergyStableLinksTest, WorkOfAHandIsCountedWithItsRealMotion) {
   SceneBuilder b;
   const int hand = b.slice(0);
   const int ball = b.mass(0.02, 1e-3, 0.0, SceneBuilder::kGestural);
   b.scene.sections[SceneBuilder::kGestural].gravity.x() = -9.81;
-  guard(b, LiaType::kContact, hand, ball, 2e4, 0.5);
+  energyStable(b, LiaType::kContact, hand, ball, 2e4, 0.5);
   Player player(b.scene, kRates);
   std::mt19937 random(2);
   std::uniform_real_distribution<double> any(-1e-3, 1e-3);
@@ -181,9 +182,9 @@ TEST(GuardedLinksTest, WorkOfAHandIsCountedWithItsRealMotion) {
   EXPECT_GT(pushed, 50.0);
 }
 
-TEST(GuardedLinksTest, WhatAHandPressesItHolds) {
+TEST(EnergyStableLinksTest, WhatAHandPressesItHolds) {
   SceneBuilder b;
-  guard(b, LiaType::kContact, b.slice(0), b.ground(0.0, SceneBuilder::kGestural), 1e4);
+  energyStable(b, LiaType::kContact, b.slice(0), b.ground(0.0, SceneBuilder::kGestural), 1e4);
   Player player(b.scene, kRates);
   for (int n = 0; n < 20; ++n) {
     player.positions[0] = 1e-4 * std::min(n, 10);
@@ -192,11 +193,11 @@ TEST(GuardedLinksTest, WhatAHandPressesItHolds) {
   EXPECT_NEAR(energiesOf(player).stored, 0.5 * 1e4 * 1e-6, 1e-12);
 }
 
-TEST(GuardedLinksTest, TurningAKnobIsWorkOfTheKnob) {
+TEST(EnergyStableLinksTest, TurningAKnobIsWorkOfTheKnob) {
   SceneBuilder b;
   b.scene.parameters.push_back({"k", 1.0, 0.5, 4.0, {}});
   const int mass = b.mass(1e-2, 1e-2);
-  scene::Lia& lia = guard(b, LiaType::kCubic, mass, b.ground(), 300.0);
+  scene::Lia& lia = energyStable(b, LiaType::kCubic, mass, b.ground(), 300.0);
   lia.stiffness = {300.0, 0};
   Player player(b.scene, kRates);
   player.ticks(10);
@@ -212,11 +213,11 @@ TEST(GuardedLinksTest, TurningAKnobIsWorkOfTheKnob) {
 }
 
 /// What the knob has put into a stretched spring moves its mass.
-TEST(GuardedLinksTest, StiffenedSpringGivesWhatItThenHolds) {
+TEST(EnergyStableLinksTest, StiffenedSpringGivesWhatItThenHolds) {
   SceneBuilder b;
   b.scene.parameters.push_back({"k", 300.0, 300.0, 1200.0, {}});
   const int mass = b.mass(1e-2, 1e-2);
-  guard(b, LiaType::kCubic, mass, b.ground(), 0.0).stiffness = {1.0, 0};
+  energyStable(b, LiaType::kCubic, mass, b.ground(), 0.0).stiffness = {1.0, 0};
   Player player(b.scene, kRates);
   player.tick();
   player.instrument->exchange(player.instrument->prepare({1200.0}));
@@ -228,10 +229,10 @@ TEST(GuardedLinksTest, StiffenedSpringGivesWhatItThenHolds) {
   EXPECT_NEAR(kinetic, 0.5 * 1200.0 * 1e-4, 1e-3);
 }
 
-TEST(GuardedLinksTest, SinglePrecisionPlaysTheSameAndKeepsABallBouncing) {
+TEST(EnergyStableLinksTest, SinglePrecisionPlaysTheSameAndKeepsABallBouncing) {
   SceneBuilder b;
   const int ball = b.mass(5e-3, -1e-3, 1.0);
-  guard(b, LiaType::kPowerContact, ball, b.ground(), 1e7);
+  energyStable(b, LiaType::kPowerContact, ball, b.ground(), 1e7);
   b.hear(ball, 0, scene::Quantity::kVelocity);
   Player player(b.scene, kRates, Precision::kFloat);
   player.ticks(20);
@@ -259,7 +260,7 @@ double periodAt(double rate, double steepness) {
   const int bow = b.mass(1e15, 0.0, kBowSpeed);
   b.link(LiaType::kSmoothBow, bow, mass, 0.0, kBowForce * std::sqrt(2.0 * steepness) / 0.63);
   b.scene.lias[0].law.edit().width = {2.0 / std::sqrt(steepness)};
-  b.scene.lias[0].scheme = Scheme::kGuarded;
+  b.scene.lias[0].scheme = Scheme::kEnergyStable;
   b.hear(mass, 0);
   b.hear(mass, 1, Quantity::kVelocity);
   Player player(b.scene, {rate, 1});
@@ -277,7 +278,7 @@ double periodAt(double rate, double steepness) {
   return (turns.back() - turns[turns.size() - 21]) / 20.0 / rate;
 }
 
-TEST(GuardedFrictionTest, StickSlipPeriodIsThatOfTheContinuousModel) {
+TEST(EnergyStableFrictionTest, StickSlipPeriodIsThatOfTheContinuousModel) {
   for (const reference::BowPeriod& r : reference::kBowPeriods) {
     const double coarse = std::abs(periodAt(88200.0, r.steepness) / r.period_s - 1.0);
     const double fine = std::abs(periodAt(176400.0, r.steepness) / r.period_s - 1.0);
@@ -298,7 +299,7 @@ SceneBuilder rubbed(LiaType type, double steepness, double speed) {
     lia.law.edit().table.points = {
         {-kRate, 0.0}, {-0.1 * kRate, -height}, {0.1 * kRate, height}, {kRate, 0.0}};
   }
-  lia.scheme = Scheme::kGuarded;
+  lia.scheme = Scheme::kEnergyStable;
   b.hear(mass, 0, Quantity::kVelocity);
   return b;
 }
@@ -319,7 +320,7 @@ void expectOnlySlowed(const SceneBuilder& b, double steepness) {
   EXPECT_GT(energiesOf(player).sections[0].dissipated, 0.0);
 }
 
-TEST(GuardedFrictionTest, SteepFrictionNeverReversesTheSlipAndAlwaysDissipates) {
+TEST(EnergyStableFrictionTest, SteepFrictionNeverReversesTheSlipAndAlwaysDissipates) {
   for (const double steepness : {0.1, 1.0, 2.0, 3.0, 10.0, 100.0, 1e4, 1e8}) {
     expectOnlySlowed(rubbed(LiaType::kBow, 1.5 * steepness, 0.9), steepness);
     expectOnlySlowed(rubbed(LiaType::kBowTable, steepness, 0.9), steepness);
@@ -328,7 +329,7 @@ TEST(GuardedFrictionTest, SteepFrictionNeverReversesTheSlipAndAlwaysDissipates) 
 }
 
 /// The same friction from the slip before the step.
-TEST(GuardedFrictionTest, ExplicitFrictionOfThatSteepnessReversesTheSlip) {
+TEST(EnergyStableFrictionTest, ExplicitFrictionOfThatSteepnessReversesTheSlip) {
   SceneBuilder b = rubbed(LiaType::kBow, 1.5 * 3.0, 0.3);
   b.scene.lias[0].scheme = Scheme::kExplicit;
   Player player(b.scene, {kRate, 1});
@@ -341,7 +342,7 @@ TEST(GuardedFrictionTest, ExplicitFrictionOfThatSteepnessReversesTheSlip) {
   EXPECT_GT(reversals, 10);
 }
 
-TEST(GuardedFrictionTest, RoughGroundHoldsAMassAgainstALoad) {
+TEST(EnergyStableFrictionTest, RoughGroundHoldsAMassAgainstALoad) {
   SceneBuilder b = rubbed(LiaType::kBow, 1e6, 0.0);
   b.scene.lias[0].law.edit().width = {0.1 * kRate};
   b.scene.mats[0].push.edit().force.x() = 0.01 * kRate * kRate;
@@ -353,7 +354,7 @@ TEST(GuardedFrictionTest, RoughGroundHoldsAMassAgainstALoad) {
 }
 
 /// What a bow, contacts and springs on the same masses dissipate: only the bow does, in every step.
-TEST(GuardedFrictionTest, BowOnGuardedSpringsKeepsTheBalance) {
+TEST(EnergyStableFrictionTest, BowOnEnergyStableSpringsKeepsTheBalance) {
   constexpr int kMasses = 12;
   SceneBuilder b;
   std::mt19937 random(3);
@@ -374,22 +375,22 @@ TEST(GuardedFrictionTest, BowOnGuardedSpringsKeepsTheBalance) {
   b.link(LiaType::kBow, place, wall, 0.0, 5.0 * kRate);
   b.scene.lias.back().law.edit().width = {0.05 * kRate};
   for (Lia& lia : b.scene.lias) {
-    lia.scheme = Scheme::kGuarded;
+    lia.scheme = Scheme::kEnergyStable;
   }
   Player player(b.scene, {kRate, 1});
   player.tick();
   const double at_start = energiesOf(player).stored;
-  double heat = test::guardsOf(player).back().lost;
+  double heat = test::tankStatesOf(player).back().lost;
   double whole = 0.0;  // energy and heat
   for (int n = 0; n < 20000; ++n) {
-    const std::vector<GuardedState<double>> guards = test::guardsOf(player);
-    ASSERT_GE(guards.back().lost, heat * (1.0 - 1e-14)) << n;
-    heat = guards.back().lost;
+    const std::vector<EnergyStableState<double>> tanks = test::tankStatesOf(player);
+    ASSERT_GE(tanks.back().lost, heat * (1.0 - 1e-14)) << n;
+    heat = tanks.back().lost;
     player.tick();
-    const double now = test::energyBetweenSteps(player, guards) + test::heatOf(guards);
+    const double now = test::energyBetweenSteps(player, tanks) + test::heatOf(tanks);
     whole = n == 0 ? now : whole;
     ASSERT_NEAR(now / whole, 1.0, 1e-12) << n;
-    ASSERT_NEAR(test::heatOf(guards), heat, 1e-9 * whole) << n;
+    ASSERT_NEAR(test::heatOf(tanks), heat, 1e-9 * whole) << n;
   }
   EXPECT_GT(heat, 0.1 * at_start);
 }

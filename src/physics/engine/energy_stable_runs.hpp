@@ -6,34 +6,34 @@
 #include <vector>
 
 #include "ergotic/physics/engine/instrument.hpp"
-#include "physics/engine/guarded.hpp"
-#include "physics/engine/guarded_reach.hpp"
+#include "physics/engine/energy_stable.hpp"
+#include "physics/engine/energy_stable_reach.hpp"
 #include "physics/engine/near_links.hpp"
 #include "physics/engine/points.hpp"
 #include "physics/engine/pressures.hpp"
 #include "physics/engine/stepper.hpp"
 #include "physics/engine/tanks.hpp"
+#include "physics/layout/energy_stable_groups.hpp"
 #include "physics/layout/groups.hpp"
-#include "physics/layout/guarded_groups.hpp"
 #include "physics/state/coefficients.hpp"
 #include "physics/state/state.hpp"
 
 namespace ergotic::physics {
 
-/// The guarded links of an instrument: finds the modules behind their ends, steps those of one rate
-/// together, and keeps their energy accounts.
+/// The energy-stable links of an instrument: finds the modules behind their ends, steps those of
+/// one rate together, and keeps their energy accounts.
 template <class Real>
-class GuardedRuns {
+class EnergyStableRuns {
  public:
   /// Adds its entries to the arena. \pre the arena is not allocated
-  GuardedRuns(const scene::Scene& scene,
-              const Layout& layout,
-              const Groups& groups,
-              const Points<Real>& points,
-              State<Real>& state);
+  EnergyStableRuns(const scene::Scene& scene,
+                   const Layout& layout,
+                   const Groups& groups,
+                   const Points<Real>& points,
+                   State<Real>& state);
 
-  /// Steps the guarded links of a group whose steps end with frame `last`, adds their forces to
-  /// modules and points. Only then are all other forces of these steps there: links to faster
+  /// Steps the energy-stable links of a group whose steps end with frame `last`, adds their forces
+  /// to modules and points. Only then are all other forces of these steps there: links to faster
   /// sections give theirs frame by frame. \pre so are those of the frames from `first` to `last`.
   /// Realtime: yes
   void step(const Group& group,
@@ -48,9 +48,9 @@ class GuardedRuns {
               const CoefficientsOf<Real>& to,
               State<Real>& state) noexcept;
 
-  std::vector<GuardReport> makeReports() const;
+  std::vector<TankReport> makeReports() const;
   /// Realtime: yes
-  void read(const State<Real>& state, std::vector<GuardReport>& to) const noexcept;
+  void read(const State<Real>& state, std::vector<TankReport>& to) const noexcept;
   /// True if every energy that a link may spend is a finite number. Realtime: yes
   bool isFinite(const State<Real>& state) const noexcept;
 
@@ -63,7 +63,7 @@ class GuardedRuns {
   };
   /// Links of one rate in one group.
   struct Links {
-    GuardedLinks<Real> links;
+    EnergyStableLinks<Real> links;
     NearLinks<Real> near;
     std::vector<OnPlaces> on_places;
     std::vector<std::size_t> taps;    // that they reach as modules
@@ -72,20 +72,20 @@ class GuardedRuns {
     std::vector<unsigned char> due;   // [sections] of these, that moved as the present step began
     std::size_t states_at;
     std::size_t clearances_at;
-    GuardedReach::Terms terms;  // of one of those on places
+    EnergyStableReach::Terms terms;  // of one of those on places
   };
 
-  void addLinks(const scene::Scene& scene, const GuardedGroup& members, State<Real>& state);
-  bool mayWait(const scene::Scene& scene, const GuardedRef& ref) const;
+  void addLinks(const scene::Scene& scene, const EnergyStableGroup& members, State<Real>& state);
+  bool mayWait(const scene::Scene& scene, const EnergyStableRef& ref) const;
   /// True if the step of these links ends with that frame.
   bool endsStep(std::size_t g, std::int64_t frame) const noexcept {
     return (frame + 1) % members_[g].divisor == 0;
   }
   void lookAhead(std::size_t g, const CoefficientsOf<Real>& c, const State<Real>& state) noexcept;
   std::vector<int> reachedBy(const Group& group) const;
-  GuardedView<Real> viewOf(const Links& links,
-                           const CoefficientsOf<Real>& c,
-                           State<Real>& state) const noexcept;
+  EnergyStableView<Real> viewOf(const Links& links,
+                                const CoefficientsOf<Real>& c,
+                                State<Real>& state) const noexcept;
   void followPlaces(std::size_t g, State<Real>& state) noexcept;
   void markIdle(std::size_t g, State<Real>& state) noexcept;
   void markDue(std::size_t g, std::int64_t began) noexcept;
@@ -93,11 +93,11 @@ class GuardedRuns {
                 std::int64_t began,
                 const Stepper<Real>& stepper,
                 State<Real>& state) noexcept;
-  bool remembersForce(const GuardedRef& ref, const State<Real>& state) const noexcept;
+  bool remembersForce(const EnergyStableRef& ref, const State<Real>& state) const noexcept;
   void rememberGaps(std::size_t g, State<Real>& state) noexcept;
   void closeAccounts(std::size_t g, bool starts, State<Real>& state) const noexcept;
-  GuardedState<Real>* states(std::size_t g, State<Real>& state) const noexcept {
-    return state.arena().template at<GuardedState<Real>>(links_[g].states_at);
+  EnergyStableState<Real>* states(std::size_t g, State<Real>& state) const noexcept {
+    return state.arena().template at<EnergyStableState<Real>>(links_[g].states_at);
   }
   Real* clearances(std::size_t g, State<Real>& state) const noexcept {
     return state.arena().template at<Real>(links_[g].clearances_at);
@@ -105,18 +105,18 @@ class GuardedRuns {
 
   const Layout& layout_;
   const Points<Real>& points_;
-  std::vector<Real> ahead_;            // [slots] how far taps will go
-  std::vector<GuardedGroup> members_;  // guardedGroupsOf
-  GuardedReach reach_;
+  std::vector<Real> ahead_;                 // [slots] how far taps will go
+  std::vector<EnergyStableGroup> members_;  // energyStableGroupsOf
+  EnergyStableReach reach_;
   Pressures<Real> pressures_;
-  std::vector<GuardedModule<Real>> modules_;  // [slots]
-  std::vector<Links> links_;                  // [members_]
+  std::vector<EnergyStableModule<Real>> modules_;  // [slots]
+  std::vector<Links> links_;                       // [members_]
   Tanks<Real> tanks_;
-  std::vector<Real> forces_;               // [slots], of guarded links; zero between steps
+  std::vector<Real> forces_;               // [slots], of energy-stable links; zero between steps
   std::vector<std::vector<int>> reached_;  // [members_] slots that those of its group can be on
 };
 
-extern template class GuardedRuns<float>;
-extern template class GuardedRuns<double>;
+extern template class EnergyStableRuns<float>;
+extern template class EnergyStableRuns<double>;
 
 }  // namespace ergotic::physics

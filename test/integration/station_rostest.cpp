@@ -3,6 +3,7 @@
 #include <filesystem>
 
 #include <diagnostic_msgs/DiagnosticArray.h>
+#include <ergotic/Cuts.h>
 #include <ergotic/Event.h>
 #include <ergotic/GestureBlock.h>
 #include <ergotic/HandTargets.h>
@@ -72,6 +73,7 @@ class StationTest : public ::testing::Test {
 
     ::ros::NodeHandle node;
     Listener<Status> status{node, "/station/status"};
+    Listener<Cuts> cuts{node, "/station/cuts"};
     Listener<Event> events{node, "/station/events"};
     Listener<GestureBlock> gesture{node, "/station/gesture"};
     Listener<Keyframe> keyframes{node, "/station/keyframe"};
@@ -254,6 +256,26 @@ TEST_F(StationTest, SwapsModelsAndTellsWhichOnePlays) {
   EXPECT_TRUE(eventually([] { return world_->model_state.latest().displacement.size() == 1; }));
   ASSERT_TRUE(load(kModel).success);
   EXPECT_TRUE(eventually([] { return world_->status.latest().model == "plucked string"; }));
+}
+
+TEST_F(StationTest, NamesTheContactThatIsTooStiffAsLongAsItsModelPlays) {
+  ASSERT_TRUE(load("ergotic: 1\nname: hard\nsections:\n  s: {rate: audio, gravity: -9.81}\nmats:\n"
+                   "  floor: {type: ground, section: s}\n"
+                   "  ball: {type: mass, section: s, mass: 1 g, x: 1 mm}\nlias:\n"
+                   "  touch: {type: contact, between: [floor, ball], stiffness: 1e9, damping: 0}\n")
+                  .success);
+  EXPECT_TRUE(
+      eventually([] { return world_->cuts.latest().links == std::vector<std::string>{"touch"}; }));
+  const Cuts cuts = world_->cuts.latest();
+  ASSERT_EQ(cuts.cut.size(), 1U);
+  ASSERT_EQ(cuts.active.size(), 1U);
+  EXPECT_GT(cuts.cut.front(), 0);
+  EXPECT_LE(cuts.cut.front(), cuts.active.front());
+  ASSERT_TRUE(load(kModel).success);
+  EXPECT_TRUE(eventually([] {
+    const auto links = world_->cuts.latest().links;
+    return std::find(links.begin(), links.end(), "touch") == links.end();
+  }));
 }
 
 TEST_F(StationTest, SetsParametersWithinTheirRange) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ros/interface/convert.hpp"
 
+#include <algorithm>
+#include <iterator>
 #include <sstream>
 
 #include "ergotic/station/health.hpp"
@@ -12,6 +14,8 @@ namespace ergotic::node {
 namespace {
 
 using EventType = station::Event::Type;
+
+constexpr std::size_t kMaxCuts = 100;  // links named; a generator makes many
 
 // Messages carry the numbers of our enumerations.
 template <class T>
@@ -371,6 +375,22 @@ ModelEnergy toModelEnergy(const station::MotionFrame& motion) {
     message.coupling_stored.push_back(coupling.stored);
     message.coupling_dissipated.push_back(coupling.dissipated);
     message.coupling_made.push_back(coupling.made);
+  }
+  return message;
+}
+
+Cuts toCuts(const station::MotionFrame& motion, const scene::Scene& scene) {
+  std::vector<physics::TankReport> cut;
+  std::copy_if(motion.tanks.begin(), motion.tanks.end(), std::back_inserter(cut),
+               [](const physics::TankReport& tank) { return tank.clipped > 0; });
+  std::stable_sort(cut.begin(), cut.end(),
+                   [](const auto& a, const auto& b) { return a.clipped > b.clipped; });
+  cut.resize(std::min(cut.size(), kMaxCuts));
+  Cuts message;
+  for (const physics::TankReport& tank : cut) {
+    message.links.push_back(scene.lias[static_cast<std::size_t>(tank.lia)].name);
+    message.active.push_back(tank.active);
+    message.cut.push_back(tank.clipped);
   }
   return message;
 }

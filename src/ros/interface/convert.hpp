@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <ergotic/Cuts.h>
 #include <ergotic/Event.h>
 #include <ergotic/Hold.h>
 #include <ergotic/Keyframe.h>
@@ -55,6 +56,10 @@ void fillStatus(const physics::Instrument& instrument, Status& status);
 void fillStatus(const station::MotionFrame& motion, const scene::Scene& scene, Status& status);
 
 ModelEnergy toModelEnergy(const station::MotionFrame& motion);
+
+/// Energy-stable links whose force was cut, and in how many steps, those cut in most steps first;
+/// at most 100. \param scene  the one that plays, for names of links
+Cuts toCuts(const station::MotionFrame& motion, const scene::Scene& scene);
 
 Keyframe toKeyframe(const station::Keyframe& keyframe,
                     const physics::Instrument& instrument,

@@ -16,6 +16,7 @@ constexpr std::uint32_t kQueue = 100;
 constexpr std::uint32_t kGestureQueue = 1000;
 constexpr std::uint32_t kEventQueue = 10000;
 constexpr std::int64_t kStatusPeriodNs = 1'000'000'000;
+constexpr std::int64_t kCutsPeriodNs = 1'000'000'000;
 constexpr bool kLatched = true;
 
 }  // namespace
@@ -31,11 +32,13 @@ Publishers::Publishers(const ::ros::NodeHandle& node, const std::string& tf_pref
   events_ = node_.advertise<Event>("events", kEventQueue);
   status_topic_ = node_.advertise<Status>("status", 1, kLatched);
   model_parameters_ = node_.advertise<ParametersMessage>("model_parameters", 1, kLatched);
+  cuts_topic_ = node_.advertise<Cuts>("cuts", 1, kLatched);
   gesture_ = node_.advertise<GestureBlock>(
       "gesture", kGestureQueue,
       [this](const ::ros::SingleSubscriberPublisher& /*peer*/) { new_listener_ = true; });
   static_transforms_.sendTransform(modelFrame(names_, ::ros::Time::now()));
   showSilence("no model yet");
+  sendCuts({});
 }
 
 template <class Message>
@@ -198,6 +201,9 @@ void Publishers::show(const station::MotionFrame& motion, const scene::Scene& sc
   }
   motion_due_ns_ = std::max(motion_due_ns_ + motion_period_ns_, now_ns);
   watch(motion, scene);
+  if (now_ns >= cuts_due_ns_) {
+    showCuts(toCuts(motion, scene));
+  }
   display_.show(motion);
   if (model_energy_.getNumSubscribers() > 0) {
     ModelEnergy message = toModelEnergy(motion);
@@ -246,6 +252,22 @@ void Publishers::sendParameters() {
   parameters_due_ns_ = rt::monotonicNs() + motion_period_ns_;
   parameters_.header.stamp = ::ros::Time::now();
   tell(model_parameters_, parameters_);
+}
+
+/// Sends cuts if they are others than before.
+void Publishers::showCuts(Cuts cuts) {
+  cuts_due_ns_ = rt::monotonicNs() + kCutsPeriodNs;  // a model may have very many links to look at
+  if (cuts.links == cuts_.links && cuts.active == cuts_.active && cuts.cut == cuts_.cut) {
+    return;
+  }
+  sendCuts(std::move(cuts));
+}
+
+void Publishers::sendCuts(Cuts cuts) {
+  cuts_due_ns_ = rt::monotonicNs() + kCutsPeriodNs;
+  cuts_ = std::move(cuts);
+  cuts_.header.stamp = ::ros::Time::now();
+  cuts_topic_.publish(cuts_);
 }
 
 void Publishers::sendStatus() {

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include <ergotic/Cuts.h>
 #include <ergotic/Handles.h>
 #include <ergotic/Levels.h>
 #include <ergotic/Scope.h>
@@ -94,6 +95,8 @@ class Publishers {
   void tell(::ros::Publisher& topic, const Message& message);
   void sendStatus();
   void sendParameters();
+  void showCuts(Cuts cuts);
+  void sendCuts(Cuts cuts);
   void watch(const station::MotionFrame& motion, const scene::Scene& scene);
 
   ::ros::NodeHandle node_;
@@ -114,6 +117,7 @@ class Publishers {
   ::ros::Publisher events_;
   ::ros::Publisher status_topic_;
   ::ros::Publisher model_parameters_;
+  ::ros::Publisher cuts_topic_;
 
   tf2_ros::TransformBroadcaster transforms_;
   tf2_ros::StaticTransformBroadcaster static_transforms_;
@@ -128,6 +132,8 @@ class Publishers {
   EndEffectorFrames frames_;
   std::int64_t motion_due_ns_ = 0;
   std::int64_t status_due_ns_ = 0;
+  Cuts cuts_;  // as they were sent
+  std::int64_t cuts_due_ns_ = 0;
   Display display_;
 };
 

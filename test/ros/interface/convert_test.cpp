@@ -227,6 +227,34 @@ TEST(ConvertTest, StatusNamesAEnergyStableLinkAsLongAsItIsCutTooOften) {
   EXPECT_EQ(status.guard_warning, "");
 }
 
+TEST(ConvertTest, CutsNameTheLinksThatWereCutThoseCutMostFirst) {
+  const scene::Scene scene = scene::readYaml(std::string(kScene) + R"(
+  m: {type: spring, between: [a, b], stiffness: 10}
+  n: {type: spring, between: [a, b], stiffness: 10}
+)",
+                                             "two.yaml");
+  station::MotionFrame motion;
+  motion.tanks = {{0, 1000, 3}, {1, 1000, 0}, {2, 12345678901, 7}};
+  const Cuts cuts = sentAndReceived(toCuts(motion, scene));
+  EXPECT_EQ(cuts.links, (std::vector<std::string>{"n", "l"}));
+  EXPECT_EQ(cuts.active, (std::vector<std::int64_t>{12345678901, 1000}));
+  EXPECT_EQ(cuts.cut, (std::vector<std::int64_t>{7, 3}));
+}
+
+TEST(ConvertTest, CutsAreAtMostAHundredThoseCutMostOften) {
+  const scene::Scene scene = scene::readYaml(kScene, "two.yaml");
+  station::MotionFrame motion;
+  for (std::int64_t n = 1; n <= 150; ++n) {
+    motion.tanks.push_back({0, 1000, n});
+  }
+  const Cuts cuts = toCuts(motion, scene);
+  ASSERT_EQ(cuts.links.size(), 100U);
+  EXPECT_EQ(cuts.active.size(), 100U);
+  ASSERT_EQ(cuts.cut.size(), 100U);
+  EXPECT_EQ(cuts.cut.front(), 150);
+  EXPECT_EQ(cuts.cut.back(), 51);
+}
+
 TEST(ConvertTest, KeyframeSurvivesTheWireBitForBit) {
   const scene::Scene scene = scene::readYaml(kScene, "two.yaml");
   physics::CompileOptions options(physics::Precision::kDouble);

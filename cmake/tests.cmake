@@ -157,7 +157,7 @@ foreach(instruments instruments instruments_whole)
     COMMAND /usr/bin/python3 ${PROJECT_SOURCE_DIR}/test/integration/instruments_test.py
             $<TARGET_FILE_DIR:render>)
 endforeach()
-set_tests_properties(scripts.instruments PROPERTIES COST 40)
+set_tests_properties(scripts.instruments PROPERTIES COST 90)
 set_tests_properties(scripts.instruments_whole PROPERTIES LABELS long ENVIRONMENT ERGOTIC_LONG=1 TIMEOUT 900)
 add_test(NAME scripts.compare_builds
   COMMAND /usr/bin/python3 ${PROJECT_SOURCE_DIR}/test/integration/compare_builds_test.py

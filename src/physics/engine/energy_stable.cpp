@@ -122,24 +122,37 @@ Real heldStepOf(const EnergyStableView<Real>& v, const Link& link, int section, 
   return link.sticks ? link.share * d : v.due[section] == 0 ? Real(0) : d;
 }
 
+/// How far the module of a term moves.
+template <class Real>
+struct Moves {
+  Real now;   // in the step just made
+  Real next;  // in the step to come, if nothing energy-stable pushes
+};
+
+template <class Real, class Link, class Term>
+Moves<Real> movesOf(const EnergyStableView<Real>& v, const Link& link, const Term& term) noexcept {
+  const int i = term.slot;
+  if (term.slow_section >= 0) {
+    // A held module stays until its section is stepped again.
+    const Real now = heldStepOf(v, link, term.slow_section, v.d[i]);
+    return {now, link.sticks ? now : Real(0)};
+  }
+  return {v.d[i], term.is_tap ? v.ahead[i] : stepOf(v, i, v.d[i])};
+}
+
 template <class Real>
 typename EnergyStableLinks<Real>::Course EnergyStableLinks<Real>::courseOf(
     const EnergyStableView<Real>& v, const Link& link) const noexcept {
   Course c;
   for (std::size_t t = link.first; t < link.first + link.count; ++t) {
     const Term& term = terms_[t];
-    const int i = term.slot;
-    const bool is_held = term.slow_section >= 0;
-    const Real now = is_held ? heldStepOf(v, link, term.slow_section, v.d[i]) : v.d[i];
-    // A held module stays until its section is stepped again.
-    const Real held_next = link.sticks ? now : Real(0);
-    const Real next = is_held ? held_next : term.is_tap ? v.ahead[i] : stepOf(v, i, now);
+    const Moves<Real> moves = movesOf(v, link, term);
     const Real fixed = isFree(v, term) ? Real(0) : Real(1);
     for (int k = 0; k < link.dimensions; ++k) {
-      c.now[k] += term.weight[k] * now;
-      c.next[k] += term.weight[k] * next;
-      c.fixed_now[k] += fixed * term.weight[k] * now;
-      c.fixed_next[k] += fixed * term.weight[k] * next;
+      c.now[k] += term.weight[k] * moves.now;
+      c.next[k] += term.weight[k] * moves.next;
+      c.fixed_now[k] += fixed * term.weight[k] * moves.now;
+      c.fixed_next[k] += fixed * term.weight[k] * moves.next;
     }
   }
   return c;
@@ -156,37 +169,77 @@ bool pushes(const EnergyStableMotion<Real>& m,
   return law.form->phase == nullptr || holdsAt(m.p, law, state);
 }
 
-/// Measures the position of the link, its opening without its own force, and whether it is active.
 template <class Real>
-EnergyStableMotion<Real> EnergyStableLinks<Real>::measure(
-    const EnergyStableView<Real>& view,
-    const EnergyStableLaw<Real>& law,
-    const Link& link,
-    EnergyStableState<Real>& state) const noexcept {
-  Motion m;
-  m.is_friction = law.isFriction();
+Real EnergyStableLinks<Real>::measureSpatial(const EnergyStableView<Real>& view,
+                                             const EnergyStableLaw<Real>& law,
+                                             const Link& link,
+                                             EnergyStableState<Real>& state,
+                                             Motion& m) const noexcept {
   const Course c = courseOf(view, link);
-  if (m.is_friction && link.euclidean) {
-    // In space friction is along the slip.
+  if (m.is_friction) {  // it is along the slip
     const Real u[3] = {c.now[0] + c.next[0], c.now[1] + c.next[1], c.now[2] + c.next[2]};
     direct(u, Real(1), m);
   } else {
     place(view, law, link, m);
   }
-  Real opened = Real(0);
+  Real now = Real(0);
   Real moved = Real(0);
   for (int k = 0; k < link.dimensions; ++k) {
-    opened -= m.gradient[k] * c.now[k];
+    now += m.gradient[k] * c.now[k];
     m.opening -= m.gradient[k] * c.next[k];
     m.foreseen -= m.gradient[k] * c.fixed_next[k];
     moved -= state.gradient[k] * c.fixed_now[k];
   }
-  m.opening += opened;
-  m.coasting = Real(2) * opened;
   payArrears(moved, state);
+  return now;
+}
+
+/// The same in one pass: most links are scalar.
+template <class Real>
+Real EnergyStableLinks<Real>::measureScalar(const EnergyStableView<Real>& view,
+                                            const EnergyStableLaw<Real>& law,
+                                            const Link& link,
+                                            EnergyStableState<Real>& state,
+                                            Motion& m) const noexcept {
+  Real u = link.offset[0];
+  Real now = Real(0);
+  Real next = Real(0);
+  Real fixed_now = Real(0);
+  Real fixed_next = Real(0);
+  for (std::size_t t = link.first; t < link.first + link.count; ++t) {
+    const Term& term = terms_[t];
+    const Moves<Real> moves = movesOf(view, link, term);
+    const Real weight = term.weight[0];
+    u += weight * view.x[term.slot];
+    now += weight * moves.now;
+    next += weight * moves.next;
+    if (!isFree(view, term)) {
+      fixed_now += weight * moves.now;
+      fixed_next += weight * moves.next;
+    }
+  }
+  m.p = u - (law.isContact() ? -law.length : law.length);
+  m.gradient[0] = Real(1);
+  m.opening = -next;
+  m.foreseen = -fixed_next;
+  payArrears(-state.gradient[0] * fixed_now, state);
+  return now;
+}
+
+/// Measures the position of the link, its opening without its own force, and whether it is active.
+template <class Real>
+void EnergyStableLinks<Real>::measure(const EnergyStableView<Real>& view,
+                                      const EnergyStableLaw<Real>& law,
+                                      const Link& link,
+                                      EnergyStableState<Real>& state,
+                                      Motion& m) const noexcept {
+  m.is_friction = law.isFriction();
+  const Real now = link.euclidean ? measureSpatial(view, law, link, state, m)
+                                  : measureScalar(view, law, link, state, m);
+  m.opening -= now;
+  m.coasting = Real(-2) * now;
   m.is_pushing = !m.is_friction && pushes(m, law, state);
   m.is_active = m.is_friction || m.is_pushing || (law.isContact() && state.tank > Real(0));
-  return m;
 }
 
 /// Force on a coordinate per force of the link.
@@ -291,7 +344,10 @@ void EnergyStableLinks<Real>::exertOthers(const NearLinks<Real>& near,
   };
   const auto lastOf = [states](std::size_t l) { return states[l].force + states[l].damper; };
   forEachOther([&](std::size_t l) {
-    motions_[l] = isIdle(view, l) ? Motion{} : measure(view, laws[l], links_[l], states[l]);
+    motions_[l] = Motion{};
+    if (!isIdle(view, l)) {
+      measure(view, laws[l], links_[l], states[l], motions_[l]);
+    }
     countActive(view, links_[l], motions_[l], lastOf(l));
   });
   forEachOther([&](std::size_t l) {

@@ -154,10 +154,11 @@ class EnergyStableLinks {
   };
 
   bool isFree(const EnergyStableView<Real>& view, const Term& term) const noexcept;
-  Motion measure(const EnergyStableView<Real>& view,
-                 const EnergyStableLaw<Real>& law,
-                 const Link& link,
-                 EnergyStableState<Real>& state) const noexcept;
+  void measure(const EnergyStableView<Real>& view,
+               const EnergyStableLaw<Real>& law,
+               const Link& link,
+               EnergyStableState<Real>& state,
+               Motion& m) const noexcept;
   void place(const EnergyStableView<Real>& view,
              const EnergyStableLaw<Real>& law,
              const Link& link,
@@ -171,6 +172,17 @@ class EnergyStableLinks {
     Real fixed_next[3] = {Real(0), Real(0), Real(0)};
   };
   Course courseOf(const EnergyStableView<Real>& view, const Link& link) const noexcept;
+  /// \return how far end a moves against end b along the link in the step just made
+  Real measureScalar(const EnergyStableView<Real>& view,
+                     const EnergyStableLaw<Real>& law,
+                     const Link& link,
+                     EnergyStableState<Real>& state,
+                     Motion& m) const noexcept;
+  Real measureSpatial(const EnergyStableView<Real>& view,
+                      const EnergyStableLaw<Real>& law,
+                      const Link& link,
+                      EnergyStableState<Real>& state,
+                      Motion& m) const noexcept;
   void countActive(const EnergyStableView<Real>& view,
                    const Link& link,
                    const Motion& m,

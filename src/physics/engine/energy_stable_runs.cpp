@@ -193,14 +193,19 @@ void EnergyStableRuns<Real>::exchange(std::size_t g,
                                       const Stepper<Real>& stepper,
                                       State<Real>& state) noexcept {
   const EnergyStableState<Real>* all = states(g, state);
+  std::size_t last_run = layout_.runs.size();
+  kernels::RunStep<Real> frame{};
   for (const std::size_t l : links_[g].near) {
     const EnergyStableRef& ref = members_[g].links[l];
     const LinkRun& run = layout_.runs[ref.run];
     if (links_[g].idle[l] != 0) {
       continue;
     }
-    kernels::RunStep<Real> frame = stepper.stepOfRun(ref.run, began, state);
-    frame.f = forces_.data();
+    if (ref.run != last_run) {
+      frame = stepper.stepOfRun(ref.run, began, state);
+      frame.f = forces_.data();
+      last_run = ref.run;
+    }
     for (int k = 0; k < std::max(1, run.dimensions); ++k) {
       const int a = run.ends[ref.link].a + k * run.stride_a;
       const int b = run.ends[ref.link].b + k * run.stride_b;

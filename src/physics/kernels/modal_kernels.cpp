@@ -47,8 +47,11 @@ struct Sum {
   typename Wide<Real>::Vector chains[kChains] = {};
   Real rest = Real(0);
 
-  /// Halves of the block are added until one lane is left.
-  Real total() noexcept {
+  /// Halves of the block are added until one lane is left. \param blocks  0: the lanes are empty
+  Real total(int blocks) noexcept {
+    if (blocks == 0) {
+      return rest;
+    }
     for (int half = kChains / 2; half > 0; half /= 2) {
       for (int c = 0; c < half; ++c) {
         chains[c] += chains[c + half];
@@ -95,7 +98,7 @@ double stepCells(const CellArguments<Real>& a) noexcept {
     a.d[i] = now;
     a.x[i] += now;
   }
-  return kIsMetered ? static_cast<double>(lost.total()) : 0.0;
+  return kIsMetered ? static_cast<double>(lost.total(a.count / Wide<Real>::kBlock)) : 0.0;
 }
 
 template <class Real>
@@ -119,8 +122,9 @@ void gather(const ModalArguments<Real>& a, Real* sums) noexcept {
     x.rest += a.weights[i] * a.x[i];
     d.rest += a.weights[i] * a.d[i];
   }
-  sums[0] = x.total();
-  sums[1] = d.total();
+  const int blocks = a.count / Wide<Real>::kBlock;
+  sums[0] = x.total(blocks);
+  sums[1] = d.total(blocks);
 }
 
 template <class Real>
@@ -147,7 +151,7 @@ Real stepAhead(const ModalArguments<Real>& a) noexcept {
     step.rest += a.weights[i] * (a.d[i] - (a.lose[i] * a.d[i] + a.pull[i] * a.x[i]) +
                                  (a.inverse_mass[i] * a.f[i] + a.drift[i]));
   }
-  return step.total();
+  return step.total(a.count / Wide<Real>::kBlock);
 }
 
 template <class Real>

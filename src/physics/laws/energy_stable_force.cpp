@@ -182,10 +182,13 @@ void exertElastic(EnergyStableMotion<Real>& m,
                   EnergyStableState<Real>& state) noexcept {
   const bool is_contact = law.isContact();
   const bool is_open = is_contact && !(m.p > Real(0));
-  const EnergyStableForce<Real> at = is_open ? EnergyStableForce<Real>{} : law.push(m.p);
+  const bool has_push = !law.onlyBrakes();
+  const EnergyStableForce<Real> at =
+      is_open || !has_push ? EnergyStableForce<Real>{} : law.push(m.p);
   const Real kt = m.give * std::max(Real(0), at.slope);
   const Real deepest = m.p + std::abs(m.coasting) / Real(2);
-  const bool is_long = is_contact && m.give * law.push(deepest).slope <= Real(kShortContact);
+  const bool is_long =
+      is_contact && (!has_push || m.give * law.push(deepest).slope <= Real(kShortContact));
   if (is_open && !is_long) {
     return;
   }
@@ -201,7 +204,7 @@ void exertElastic(EnergyStableMotion<Real>& m,
     z = lossy.z;
     lose(std::min(state.tank, lossy.surplus), state);
   } else {
-    wanted = is_long ? wantedMean(m, law, at, kt) : wantedForce(m, at, kt, is_contact);
+    wanted = is_long && has_push ? wantedMean(m, law, at, kt) : wantedForce(m, at, kt, is_contact);
   }
   const Real damping = is_impact ? Real(0) : z;
   const Real drag = Real(1) + m.give * damping / Real(2);

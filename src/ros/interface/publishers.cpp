@@ -90,6 +90,7 @@ void Publishers::showModel(const station::Performer& performer,
   status_.verdict = physics::toString(performer.certificate.verdict);
   status_.message = note;
   status_.guard_warning.clear();
+  cuts_due_ns_ = 0;  // those of the model before are none of this one
   note_ = note;
   sendStatus();
   parameters_ = toParameters(instrument.scene(), parameters);
@@ -264,7 +265,6 @@ void Publishers::showCuts(Cuts cuts) {
 }
 
 void Publishers::sendCuts(Cuts cuts) {
-  cuts_due_ns_ = rt::monotonicNs() + kCutsPeriodNs;
   cuts_ = std::move(cuts);
   cuts_.header.stamp = ::ros::Time::now();
   cuts_topic_.publish(cuts_);

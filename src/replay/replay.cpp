@@ -277,6 +277,11 @@ void Replay::submitSwaps() {
     }
     std::unique_ptr<station::Performer> performer = perform(keyframeOfSwap(event.tick));
     incoming_ = {performer.get(), performer->parameters};
+    for (const station::Event& change : std::exchange(changes_ahead_, {})) {
+      takeParameter(change, incoming_);
+      performer->instrument->exchange(performer->instrument->prepare(incoming_.parameters));
+    }
+    performer->parameters = incoming_.parameters;
     swap_tick_ = event.tick;
     station::Command swap;
     swap.type = station::Command::Type::kSwap;
@@ -290,7 +295,9 @@ void Replay::submitChanges() {
   while (change_ < recording_.events.size() && recording_.events[change_].tick <= tick_) {
     const station::Event& event = recording_.events[change_++];
     if (event.type == EventType::kParameter) {
-      submitParameter(event);
+      if (!isOfNone(change_ - 1)) {
+        submitParameter(event);
+      }
     } else if (event.type == EventType::kHold) {
       station_->hold(static_cast<std::size_t>(event.index), event.hold);
     } else if (beginsAnew(event)) {
@@ -301,16 +308,38 @@ void Replay::submitChanges() {
   }
 }
 
+/// True of a parameter of a model that was discarded for a newer one before it played.
+bool Replay::isOfNone(std::size_t change) const {
+  const auto& events = recording_.events;
+  if (events[change].frame >= 0) {
+    return false;
+  }
+  const auto next =
+      std::find_if(events.begin() + static_cast<std::ptrdiff_t>(change), events.end(),
+                   [](const station::Event& event) { return event.type == EventType::kSwapped; });
+  return next == events.end() || !isSwap(*next);
+}
+
+/// The station asks for a swap no earlier than it has to; the player may have loaded the model long
+/// before, while an earlier one still faded in, and may have turned its knobs since.
 void Replay::submitParameter(const station::Event& event) {
-  Tone& tone = incoming_.performer != nullptr && tick_ < swap_tick_ ? incoming_ : playing_;
+  const bool waits = incoming_.performer != nullptr && tick_ < swap_tick_;
+  if (event.frame < 0 && !waits) {
+    return changes_ahead_.push_back(event);
+  }
+  Tone& tone = waits ? incoming_ : playing_;
+  takeParameter(event, tone);
+  station_->setParameter(*tone.performer->instrument, tone.parameters,
+                         static_cast<int>(event.index));
+}
+
+void Replay::takeParameter(const station::Event& event, Tone& tone) {
   if (event.index < 0 || event.index >= static_cast<std::int64_t>(tone.parameters.size())) {
     throw Exception("the change of a parameter at tick " + std::to_string(event.tick) +
                     " is of number " + std::to_string(event.index) + ", the model has " +
                     std::to_string(tone.parameters.size()));
   }
   tone.parameters[static_cast<std::size_t>(event.index)] = event.value;
-  station_->setParameter(*tone.performer->instrument, tone.parameters,
-                         static_cast<int>(event.index));
 }
 
 /// Requests a keyframe at the tick of every later recorded one, to check the replay.

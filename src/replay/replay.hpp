@@ -82,6 +82,8 @@ class Replay {
   void submitSwaps();
   void submitChanges();
   void submitParameter(const station::Event& event);
+  bool isOfNone(std::size_t change) const;
+  static void takeParameter(const station::Event& event, Tone& tone);
   bool wasAtFault() const;
   void submitKeyframe();
   void hear(const station::Event& event);
@@ -105,6 +107,8 @@ class Replay {
   bool ports_differ_told_ = false;
   Tone playing_;
   Tone incoming_;
+  std::vector<station::Event>
+      changes_ahead_;  // parameters of a model whose swap is not asked for yet
   std::unique_ptr<OfflineStation> station_;
   std::vector<std::string> flaws_;
 };

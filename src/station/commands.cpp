@@ -236,6 +236,7 @@ void Station::takeCoefficients(const Command& command) noexcept {
   Event taken = event(Event::Type::kParameter);
   taken.index = command.index;
   taken.value = command.value;
+  taken.frame = incoming_ != nullptr ? -1 : taken.frame;
   taken.coefficients =
       target.instrument->exchange(std::unique_ptr<physics::Coefficients>(command.coefficients))
           .release();

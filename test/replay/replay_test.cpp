@@ -178,6 +178,41 @@ TEST(ReplayTest, SwapsModelsWithTheSameFade) {
   expectSame(replay(live.recording()), live.sound());
 }
 
+// The second swap waits for the end of the fade of the first, longer than a swap takes by itself.
+TEST(ReplayTest, GivesAParameterToTheModelThatWaitedForAnEarlierSwap) {
+  LiveRun live(kStruckScene);
+  live.takeKeyframe();
+  live.play(1300);
+  live.swap(otherScene());
+  live.play(18);
+  live.takeKeyframe();  // it has begun to play
+  live.play(2);
+  live.swap(kStruckScene);
+  live.play(2);
+  live.setParameter(0, 5000.0);
+  live.play(1);
+  live.setParameter(0, 7000.0);
+  live.play(100);
+  live.takeKeyframe();
+  live.play(2000);
+  expectSame(replay(live.recording()), live.sound());
+}
+
+TEST(ReplayTest, GivesNoModelAParameterOfOneThatNeverPlayed) {
+  LiveRun live(kStruckScene);
+  live.takeKeyframe();
+  live.play(1300);
+  live.swap(kStruckScene);
+  live.play(5);
+  live.setParameter(0, 7000.0);
+  live.play(2);
+  live.swap(otherScene());  // instead
+  live.play(100);
+  live.takeKeyframe();
+  live.play(2000);
+  expectSame(replay(live.recording()), live.sound());
+}
+
 TEST(ReplayTest, BlowsUpAndBeginsAnewAsThePerformanceDid) {
   std::string unstable = kStruckScene;
   unstable.replace(unstable.find("[1000, 8000]"), 12, "[1000, 9e6]");

@@ -99,7 +99,8 @@ struct Event {
     kSwapped,    ///< performer: to be freed by the receiver; index: 1 it was replaced at this tick,
                  ///< 0 it never played, because a newer one was submitted in time; value: 1
                  ///< force went to zero with it and waits for kEngage
-    kParameter,  ///< index, value; coefficients: the old ones, to be freed
+    kParameter,  ///< index, value; coefficients: the old ones, to be freed; frame: -1 if it is of a
+                 ///< performer that has still to be swapped in
     kKeyframe,   ///< index: 1 the state is in Station::keyframe() until the next request, 0 it is
                  ///< larger than the configuration allows
     kFault,     ///< index: FaultReason; value: slice; of kStall the length of the stall, s (0: none

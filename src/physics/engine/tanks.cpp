@@ -33,6 +33,12 @@ Tanks<Real>::Tanks(const Layout& layout,
         last = std::max({last, ends.a, ends.b});
       }
       body.count = last + 1 - body.first;
+      for (const LinkEnds& ends : layout.runs[r].ends) {
+        body.modules.push_back(static_cast<std::uint32_t>(ends.a - body.first));
+        body.modules.push_back(static_cast<std::uint32_t>(ends.b - body.first));
+      }
+      std::sort(body.modules.begin(), body.modules.end());
+      body.modules.erase(std::unique(body.modules.begin(), body.modules.end()), body.modules.end());
       body.is_lone = group.links.empty();
       body.slope.resize(at(body.count));
       const std::string name = "tank" + std::to_string(r);
@@ -54,7 +60,9 @@ void Tanks<Real>::measure(Body& body,
   const kernels::TankLinks<Real> links{run.spans.data(), run.spans.size(), run.ends.data(),
                                        c.fields.data() + 2 * run.ends.size(),
                                        c.fields.data() + 3 * run.ends.size()};
-  std::fill(body.slope.begin(), body.slope.end(), Real(0));
+  for (const std::size_t i : body.modules) {
+    body.slope[i] = Real(0);
+  }
   const kernels::TankSums sums =
       run.is_mean ? kernels::addMeanSlopes(links, x, body.slope.data() - body.first)
                   : kernels::addCubicSlopes(links, x, body.slope.data() - body.first);
@@ -71,7 +79,7 @@ void Tanks<Real>::measure(Body& body,
 template <class Real>
 void Tanks<Real>::addForce(Body& body, double psi, State<Real>& state) const noexcept {
   const Real scale = static_cast<Real>(body.per_slope * psi);
-  kernels::addForces(body.slope.data(), scale, at(body.count), state.f() + body.first,
+  kernels::addForces(body.modules, body.slope.data(), scale, state.f() + body.first,
                      state.arena().template at<Real>(body.force_at));
 }
 
@@ -113,7 +121,8 @@ ERGOTIC_REALTIME void Tanks<Real>::exert(std::size_t group,
                                              c.masses.drift.data() + body.first,
                                              c.masses.lose.data() + body.first,
                                              c.masses.pull.data() + body.first,
-                                             at(body.count)};
+                                             body.modules.data(),
+                                             body.modules.size()};
     Real* const last_force = state.arena().template at<Real>(body.force_at);
     const kernels::TankSteps steps = kernels::measureSteps(modules, body.slope.data(), last_force);
     body.half = 0.5 * body.per_slope * steps.now;
@@ -126,7 +135,9 @@ ERGOTIC_REALTIME void Tanks<Real>::exert(std::size_t group,
     tank.active += psi > 0.0 ? 1.0 : 0.0;
     tank.clipped += std::abs(before) < kClipped * std::abs(asked) ? 1.0 : 0.0;
     tank.stored = held + body.mean * body.half;
-    std::fill_n(last_force, body.count, Real(0));
+    for (const std::size_t i : body.modules) {
+      last_force[i] = Real(0);
+    }
     addForce(body, body.mean, state);
     body.push = body.is_lone ? 0.0 : kernels::pushOn(modules, body.slope.data());
     if (state.isMetered()) {
@@ -148,7 +159,8 @@ ERGOTIC_REALTIME void Tanks<Real>::answer(std::size_t group,
     kernels::TankModules<Real> modules{};
     modules.f = state.f() + body.first;
     modules.inverse_mass = c.masses.inverse_mass.data() + body.first;
-    modules.count = at(body.count);
+    modules.indices = body.modules.data();
+    modules.count = body.modules.size();
     const double added = kernels::pushOn(modules, body.slope.data()) - body.push;
     const double psi = 0.25 * body.per_slope * added / (1.0 + body.give);
     if (psi != 0.0) {

@@ -65,7 +65,8 @@ class Tanks {
     std::size_t run = 0;
     int first = 0;  ///< slot, of all between its modules
     int count = 0;
-    bool is_lone = false;  ///< no other energy-stable link is in its group
+    std::vector<std::uint32_t> modules;  ///< slots less `first`: others may lie between them
+    bool is_lone = false;                ///< no other energy-stable link is in its group
     std::size_t state_at = 0;
     std::size_t force_at = 0;  ///< [count] of the last step, opposite to what modules feel
     std::vector<Real> slope;   ///< [count] of the sum of the links over the modules

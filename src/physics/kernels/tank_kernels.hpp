@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <cstdint>
+#include <vector>
 
 #include "physics/layout/blocks/link_ends.hpp"
 
@@ -124,6 +126,7 @@ struct TankModules {
   const Real* drift;
   const Real* lose;
   const Real* pull;
+  const std::uint32_t* indices;  ///< [count] of the modules of the body, in all arrays
   std::size_t count;
 };
 
@@ -142,7 +145,8 @@ TankSteps measureSteps(const TankModules<Real>& m, const Real* slope, const Real
   Sum next;
   Sum give;
   Sum worked;
-  for (std::size_t i = 0; i < m.count; ++i) {
+  for (std::size_t k = 0; k < m.count; ++k) {
+    const std::size_t i = m.indices[k];
     const auto r = static_cast<double>(slope[i]);
     const auto d = static_cast<double>(m.d[i]);
     const Real step = m.d[i] - (m.lose[i] * m.d[i] + m.pull[i] * m.x[i]) +
@@ -159,7 +163,8 @@ TankSteps measureSteps(const TankModules<Real>& m, const Real* slope, const Real
 template <class Real>
 double pushOn(const TankModules<Real>& m, const Real* slope) noexcept {
   Sum push;
-  for (std::size_t i = 0; i < m.count; ++i) {
+  for (std::size_t k = 0; k < m.count; ++k) {
+    const std::size_t i = m.indices[k];
     push.add(i, static_cast<double>(slope[i]) *
                     (static_cast<double>(m.inverse_mass[i]) * static_cast<double>(m.f[i])));
   }
@@ -168,9 +173,13 @@ double pushOn(const TankModules<Real>& m, const Real* slope) noexcept {
 
 /// Takes scale times slope from the forces, and adds it to `taken`. Realtime: yes
 template <class Real>
-void addForces(const Real* slope, Real scale, std::size_t count, Real* f, Real* taken) noexcept {
-#pragma GCC ivdep  // the arrays do not overlap
-  for (std::size_t i = 0; i < count; ++i) {
+void addForces(const std::vector<std::uint32_t>& indices,
+               const Real* slope,
+               Real scale,
+               Real* f,
+               Real* taken) noexcept {
+#pragma GCC ivdep  // no index comes twice, and the arrays do not overlap
+  for (const std::size_t i : indices) {
     const Real force = scale * slope[i];
     f[i] -= force;
     taken[i] += force;

@@ -36,7 +36,6 @@ class Mobility {
     return mobility;
   }
 
- private:
   /// The masses that a module is, or lies on as a point, and how much each counts.
   template <class Visit>
   void visit(int index, double weight, const Visit& seen) const {
@@ -63,9 +62,53 @@ class Mobility {
     }
   }
 
+ private:
   const scene::Scene& scene_;
   std::vector<double> links_;  // [mats] that are energy-stable
 };
+
+/// Whether a point moves over a body.
+bool isLed(const scene::Scene& scene, int mat) {
+  return std::any_of(scene.connections.begin(), scene.connections.end(),
+                     [mat](const scene::Connection& c) {
+                       return c.mat == mat && (c.along.guide >= 0 || c.across.guide >= 0);
+                     });
+}
+
+/// The tank whose links end on a module that this one is, or lies on; nullptr if there is none.
+const scene::Tank* tankAt(const scene::Scene& scene, const Mobility& mobility, int mat) {
+  const scene::Tank* found = nullptr;
+  mobility.visit(mat, 1.0, [&](std::size_t module, double /*weight*/) {
+    for (const scene::Lia& lia : scene.lias) {
+      if (lia.tank >= 0 && (static_cast<std::size_t>(lia.a) == module ||
+                            static_cast<std::size_t>(lia.b) == module)) {
+        found = &scene.tanks[static_cast<std::size_t>(lia.tank)];
+      }
+    }
+  });
+  return found;
+}
+
+/// Why a link that its masses can follow gives back less than it took, and what to do.
+std::string adviceOf(const scene::Scene& scene, const scene::Lia& lia) {
+  const Mobility mobility(scene);
+  for (const int end : {lia.a, lia.b}) {
+    const scene::Tank* tank = tankAt(scene, mobility, end);
+    if (tank != nullptr) {
+      return "it presses on what '" + std::string(tank->name) +
+             "' holds in one tank of energy, which it cannot foresee. Put a spring_damper here, "
+             "and "
+             "the contact between what presses and the hand";
+    }
+    if (isLed(scene, end)) {
+      return "the point on which it presses moves over a body, which takes what it holds. Put a "
+             "spring_damper here, and the contact between what presses and the hand, or move the "
+             "point more slowly";
+    }
+  }
+  return "it gives back less than it took. Lower its 'damping', raise the rate, or let fewer "
+         "contacts share a module";
+}
 
 std::string warningOf(const scene::Scene& scene,
                       const physics::Rates& rates,
@@ -89,8 +132,7 @@ std::string warningOf(const scene::Scene& scene,
          << " down these masses can follow it at this rate. Lower it, raise the rate, or let fewer "
             "contacts share a module";
   } else {
-    text << ": it gives back less than it took. Lower its 'damping', raise the rate, or let fewer "
-            "contacts share a module";
+    text << ": " << adviceOf(scene, lia);
   }
   return text.str();
 }

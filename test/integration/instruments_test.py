@@ -23,6 +23,7 @@ MODELS = ROOT / "models"
 TOOLS = pathlib.Path(sys.argv.pop())
 IS_LONG = "ERGOTIC_LONG" in os.environ
 MOST_LINES = 60
+SLICES_OF_A_DEVICE = 12
 BEGINNING_S = 1.5
 LEVEL = re.compile(r": (-?[0-9.]+) LUFS, true peak (-?[0-9.]+) dBTP")
 OLDER = {"string", "fretted_string", "duet", "drum"}  # shipped before levels were asked for
@@ -85,6 +86,7 @@ class InstrumentsTest(unittest.TestCase):
                 self.assertLessEqual(len(text.splitlines()), MOST_LINES)
                 report = report_of(name)
                 self.assertIn(report["stability"]["verdict"], ("passive", "bounded"))
+                self.assertLess(max(port["slice"] for port in report["ports"]), SLICES_OF_A_DEVICE)
                 self.assertTrue((MODELS / "maps" / f"{name}.yaml").exists())
                 if name not in OLDER:
                     self.assertNotEqual(report["about"], {})

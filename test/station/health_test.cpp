@@ -62,15 +62,46 @@ std::vector<std::string> warningsOfABall(double share) {
     performer->instrument->tick({performer->positions.data(), performer->forces.data(),
                                  performer->inputs.data(), performer->outputs.data()});
   }
-  std::vector<physics::TankReport> guards = performer->instrument->makeTankReports();
-  performer->instrument->readTanks(guards);
-  return tankWarnings(performer->instrument->scene(), rates, guards);
+  std::vector<physics::TankReport> tanks = performer->instrument->makeTankReports();
+  performer->instrument->readTanks(tanks);
+  return tankWarnings(performer->instrument->scene(), rates, tanks);
 }
 
 TEST(HealthTest, TheStiffnessThatItTellsIsCutNoMore) {
   EXPECT_THAT(warningsOfABall(9.0), Contains(HasSubstr("and from about 6.5e+05 down")));
   EXPECT_THAT(warningsOfABall(1.0), IsEmpty());
   EXPECT_THAT(warningsOfABall(0.3), IsEmpty());
+}
+
+// A lower damping would not help there.
+TEST(HealthTest, SaysWhatTakesFromAContactOnAPointThatMovesOrOnABodyThatIsStretched) {
+  const auto warningOf = [](const std::string& along) {
+    const scene::Scene scene = physics::settle(scene::readYaml(R"(
+ergotic: 1
+sections: {s: {rate: audio}, keys: {rate: gestural}}
+mats:
+  guide: {type: slice, section: keys}
+  tip: {type: mass, section: s, mass: 10 g, x: -1 mm, rest: -1 mm}
+  under: {type: point, along: )" + along + R"(, at: 0.5, guide: {mat: guide, scale: 10}}
+generators:
+  - {type: string, name: led, section: s, masses: 20, mass: 1 g, stiffness: 2000}
+  - {type: string, name: stretched, section: s, masses: 20, mass: 1 g, stiffness: 2000}
+lias:
+  tension: {type: stretch, of: stretched, spacing: 0.01, hardening: 40}
+  touch: {type: contact, between: [tip, under], stiffness: 500, damping: 0.1, scheme: energy_stable}
+)",
+                                                               "led.yaml"),
+                                               {})
+                                   .scene;
+    const auto touch = std::find_if(scene.lias.begin(), scene.lias.end(), [](const auto& lia) {
+      return std::string(lia.name) == "touch";
+    });
+    const auto warnings =
+        tankWarnings(scene, {}, {{static_cast<int>(touch - scene.lias.begin()), 1000, 600}});
+    return warnings.size() == 1 ? warnings.front() : "";
+  };
+  EXPECT_THAT(warningOf("led"), HasSubstr("moves over a body, which takes what it holds"));
+  EXPECT_THAT(warningOf("stretched"), HasSubstr("what 'tension' holds in one tank"));
 }
 
 TEST(HealthTest, KeepsQuietAboutLinksThatHardlyPushed) {

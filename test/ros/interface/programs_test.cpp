@@ -48,7 +48,7 @@ TEST_F(ProgramsTest, SayWhichThereAre) {
 TEST(ShippedProgramsTest, AreThoseThatTheListShows) {
   const std::string playing = repository("models/string.yaml");
   EXPECT_EQ(fs::path(sceneOfProgram(0, playing)).stem(), "carillon");
-  EXPECT_EQ(fs::path(sceneOfProgram(1, playing)).stem(), "clockwork");
+  EXPECT_EQ(fs::path(sceneOfProgram(1, playing)).stem(), "cimbalom");
 }
 
 }  // namespace

@@ -84,8 +84,8 @@ mats:
   tip: {type: mass, section: s, mass: 10 g, x: -1 mm, rest: -1 mm}
   under: {type: point, along: )" + along + R"(, at: 0.5, guide: {mat: guide, scale: 10}}
 generators:
-  - {type: string, name: led, section: s, masses: 20, mass: 1 g, stiffness: 2000}
-  - {type: string, name: stretched, section: s, masses: 20, mass: 1 g, stiffness: 2000}
+  - {type: string, name: led, section: s, masses: 20, mass: 1 g, from: [0, 0], to: [0.2, 0], stiffness: 2000}
+  - {type: string, name: stretched, section: s, masses: 20, mass: 1 g, from: [0, 0], to: [0.2, 0], stiffness: 2000}
 lias:
   tension: {type: stretch, of: stretched, spacing: 0.01, hardening: 40}
   touch: {type: contact, between: [tip, under], stiffness: 500, damping: 0.1, scheme: energy_stable}

@@ -5,6 +5,7 @@
 
 #include "scene/generate/stretch.hpp"
 #include "scene/limits.hpp"
+#include "scene/text/glob.hpp"
 #include "scene/yaml/yaml_keys.hpp"
 
 namespace ergotic::scene {
@@ -40,6 +41,32 @@ std::vector<int> springsOf(const SceneBuilder& builder, const std::string& grid,
   return springs;
 }
 
+/// All springs that a pattern means, single ones and those of strings and meshes.
+/// \throws TextError if it means none
+std::vector<int> springsMeantBy(const SceneBuilder& builder,
+                                const std::string& pattern,
+                                Place place) {
+  std::vector<int> springs;
+  const Scene& scene = builder.scene();
+  for (std::size_t l = 0; l < scene.lias.size(); ++l) {
+    const Lia& lia = scene.lias[l];
+    if (lia.type == LiaType::kSpringDamper && lia.stiffness.factor != 0.0 &&
+        isMeantBy(lia.name.str(), pattern)) {
+      springs.push_back(static_cast<int>(l));
+    }
+  }
+  for (const Grid& grid : scene.grids) {
+    if (isMeantBy(grid.name, pattern)) {
+      const std::vector<int> of_grid = springsOf(builder, grid.name, place);
+      springs.insert(springs.end(), of_grid.begin(), of_grid.end());
+    }
+  }
+  if (springs.empty()) {
+    builder.fail(place, quoted(pattern) + " means no spring, string or mesh");
+  }
+  return springs;
+}
+
 }  // namespace
 
 StretchKeys readStretch(const SceneBuilder& builder, const std::string& name, const YamlMap& map) {
@@ -58,12 +85,13 @@ void addStretch(SceneBuilder& builder, StretchKeys stretch) {
   std::vector<int>& springs = stretch.tank.springs;
   for (const auto& [name, place] : stretch.names) {
     const bool is_link = builder.findLia(name) >= 0 || builder.findGrid(name) < 0;
-    if (stretch.is_list && is_link) {
+    if (!isPattern(name) && stretch.is_list && is_link) {
       springs.push_back(builder.lia(name, place));
-    } else {
-      const std::vector<int> of_grid = springsOf(builder, name, place);
-      springs.insert(springs.end(), of_grid.begin(), of_grid.end());
+      continue;
     }
+    const std::vector<int> of_all =
+        isPattern(name) ? springsMeantBy(builder, name, place) : springsOf(builder, name, place);
+    springs.insert(springs.end(), of_all.begin(), of_all.end());
   }
   if (stretch.tank.springs.empty()) {
     builder.fail(stretch.tank.place,

@@ -204,5 +204,27 @@ TEST(SelectionsTest, SpeakersOfAFileAreThoseThatItLists) {
   }
 }
 
+TEST(SelectionsTest, AStretchIsOfAllSpringsAndBodiesThatAPatternMeans) {
+  const auto springsOf = [](const std::string& of) {
+    const Scene scene = readYaml(kSelectionsHead +
+                                     "lias:\n"
+                                     "  t: {type: stretch, of: " +
+                                     of +
+                                     ", spacing: 1, hardening: 1}\n"
+                                     "  c_1: {type: spring, between: [m, b_1], stiffness: 1}\n"
+                                     "  c_2: {type: spring, between: [m, b_2], stiffness: 1}\n"
+                                     "  c_3: {type: damper, between: [m, b_2], damping: 1}\n"
+                                     "  pull: {type: spring, between: [m, b_10], stiffness: 1}\n",
+                                 "s.yaml");
+    std::vector<std::string> names;
+    for (const int spring : scene.tanks.at(0).springs) {
+      names.push_back(scene.lias[static_cast<std::size_t>(spring)].name);
+    }
+    return names;
+  };
+  EXPECT_THAT(springsOf("['c_*', pull]"), ElementsAre("c_1", "c_2", "pull")) << "no damper";
+  EXPECT_EQ(springsOf("['s*']").size(), springsOf("s").size() + springsOf("skin").size());
+}
+
 }  // namespace
 }  // namespace ergotic::scene

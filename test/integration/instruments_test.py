@@ -131,6 +131,7 @@ class InstrumentsTest(unittest.TestCase):
                     loudness, peak = map(float, LEVEL.search(said).groups())
                     self.assertAlmostEqual(loudness, -18, delta=3)
                     self.assertLessEqual(peak, -1)
+                    self.assertNotRegex(said, r"link 'tension[^']*': its force was cut")  # what is rounded is no cut
 
 
 if __name__ == "__main__":

@@ -17,8 +17,9 @@ struct TankState {
   double stored = 0.0;   ///< at this step: what the tank holds, with the first half of its work
   double active = 0.0;   ///< steps in which it pushed
   double clipped = 0.0;  ///< of these, steps with less force than its potential asks for
+  double most = 0.0;     ///< the most that it has held: of that a part is lost by rounding
 
-  static constexpr std::size_t kDoubles = 3;  ///< see numbersOf
+  static constexpr std::size_t kDoubles = 4;  ///< see numbersOf
 };
 
 /// Steps that were counted. A state that was loaded may say anything. Realtime: yes

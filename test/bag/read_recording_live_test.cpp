@@ -69,6 +69,7 @@ TEST(ReadRecordingTest, GivesBackEveryFieldInTheOrderOfTicks) {
     parameter.type = ergotic::Event::PARAMETER;
     parameter.index = 1;
     parameter.value = 0.25;
+    parameter.frame = -1;
     bag.write("/station/gesture", kStart, block(14));
     bag.write("/chatter", kStart, other);
     bag.write("/station/gesture", kStart, block(12));
@@ -95,6 +96,7 @@ TEST(ReadRecordingTest, GivesBackEveryFieldInTheOrderOfTicks) {
   EXPECT_EQ(recording.events[0].tick, 13);
   EXPECT_EQ(recording.events[0].index, 1);
   EXPECT_EQ(recording.events[0].value, 0.25);
+  EXPECT_EQ(recording.events[0].frame, -1) << "it is of a model that does not play yet";
   ASSERT_EQ(recording.keyframes.size(), 1U);
   const Keyframe& got = recording.keyframes[0];
   EXPECT_EQ(got.tick, 12);

@@ -89,8 +89,10 @@ std::string textOf(const station::Event& event, const scene::Scene* scene) {
       break;
     case EventType::kParameter: {
       const auto index = static_cast<std::size_t>(event.index);
-      const bool known = scene != nullptr && index < scene->parameters.size();
-      text << (known ? scene->parameters[index].name : "parameter") << " = " << event.value;
+      const bool plays = event.frame >= 0;  // else it is of a model that `scene` is not
+      const bool known = plays && scene != nullptr && index < scene->parameters.size();
+      text << (known ? scene->parameters[index].name : "parameter " + std::to_string(index))
+           << (plays ? "" : " of the model that comes next") << " = " << event.value;
       break;
     }
     case EventType::kKeyframe:

@@ -147,6 +147,10 @@ TEST(ConvertTest, ParameterEventsNameTheParameter) {
   event.index = 1;
   event.value = 0.5;
   EXPECT_EQ(toEvent(event, &scene).text, "tension = 0.5");
+  EXPECT_EQ(toEvent(event, nullptr).text, "parameter 1 = 0.5");
+  event.frame = -1;
+  EXPECT_EQ(toEvent(event, &scene).text, "parameter 1 of the model that comes next = 0.5");
+  EXPECT_EQ(toEvent(event, &scene).frame, -1) << "so that a replay knows it";
 }
 
 TEST(ConvertTest, StatusSaysWhyForceIsGone) {

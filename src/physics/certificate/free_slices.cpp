@@ -23,7 +23,7 @@ struct FreeSlices::Parts {
   bool closes = false;
   bool are_fine = false;  ///< left out where much is attached
   bool areNone() const { return of_slices == 0.0 && of_others == 0.0; }
-  /// There are few of the first cases and many others.
+  /// There are few of the first cases and many stable_links.
   int mostMasses() const { return areNone() ? 100 : 50; }
   bool areEnds() const { return of_slices == 0.0 || of_slices == 1.0; }
 };
@@ -68,25 +68,25 @@ bool isContact(const scene::Lia& lia) {
 
 /// Energy-stable links of every module. [mats]
 std::vector<int> energyStableLinksOn(const scene::Scene& scene) {
-  std::vector<int> others(scene.mats.size(), 0);
+  std::vector<int> stable_links(scene.mats.size(), 0);
   for (const scene::Lia& lia : scene.lias) {
     if (lia.scheme == scene::Scheme::kEnergyStable) {
-      ++others[at(lia.a)];
-      ++others[at(lia.b)];
+      ++stable_links[at(lia.a)];
+      ++stable_links[at(lia.b)];
     }
   }
-  return others;
+  return stable_links;
 }
 
 /// A link that is not linear as the spring and damper that it is around some place: what always
 /// holds, and a part of what more it can be. Energy-stable, it moves its ends about as one whose
 /// force is the mean over the steps on both sides does; springs only where they are stiff for a
-/// step. \param others  that share a module of the link
+/// step. \param stable_links  energy-stable ones that share a module of the link
 void makeLinear(scene::Lia& lia,
                 const RatedNetwork& networks,
                 const scene::Scene& now,
                 double part,
-                int others) {
+                int stable_links) {
   const scene::Law& law = scene::lawOf(lia.type);
   const Slopes steepest = slopesInHand(now, lia);
   const double stiffness = law.has_linear_part ? now.valueOf(lia.stiffness) : 0.0;
@@ -97,8 +97,9 @@ void makeLinear(scene::Lia& lia,
   const double z = (is_unforeseen ? 0.5 : 1.0) *  // of the steps of an end that seems to stay
                    (damping + part * (steepest.damping.highest - damping));
   const double load = networks.inverseMassStep2(lia) * k + 2.0 * networks.inverseMassStep(lia) * z;
-  const double mean = networks.isExplicit(lia) ? 1.0 : 1.0 + 0.25 * others * std::max(load, 0.0);
-  const bool is_mean = isContact(lia) || others * load > 1.0;
+  const double mean =
+      networks.isExplicit(lia) ? 1.0 : 1.0 + 0.25 * stable_links * std::max(load, 0.0);
+  const bool is_mean = isContact(lia) || stable_links * load > 1.0;
   lia.type = scene::LiaType::kSpringDamper;
   lia.scheme = scene::Scheme::kExplicit;
   lia.stiffness = {is_mean ? k / mean : k};
@@ -110,13 +111,13 @@ scene::Scene linearAround(const Hands& hands,
                           const RatedNetwork& networks,
                           scene::Scene now,
                           const Parts& parts) {
-  const std::vector<int> others = energyStableLinksOn(now);
+  const std::vector<int> stable_links = energyStableLinksOn(now);
   std::vector<scene::Lia> lias;
   for (scene::Lia lia : now.lias) {
     if (!hasLinearPart(lia) || isBent(lia)) {
       const double of_others = parts.closes || !isContact(lia) ? parts.of_others : 0.0;
       makeLinear(lia, networks, now, isAt(hands, lia) ? parts.of_slices : of_others,
-                 std::max(others[at(lia.a)], others[at(lia.b)]));
+                 std::max(stable_links[at(lia.a)], stable_links[at(lia.b)]));
     }
     if (now.valueOf(lia.stiffness) != 0.0 || now.valueOf(lia.damping) != 0.0) {
       lias.push_back(std::move(lia));

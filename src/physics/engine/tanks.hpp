@@ -16,7 +16,8 @@ namespace ergotic::physics {
 struct TankState {
   double stored = 0.0;   ///< at this step: what the tank holds, with the first half of its work
   double active = 0.0;   ///< steps in which it pushed
-  double clipped = 0.0;  ///< of these, steps with less force than its potential asks for
+  double clipped = 0.0;  ///< of these, steps with less force than its potential asks for, by more
+                         ///< than rounding takes from it
   double most = 0.0;     ///< the most that it has held: of that a part is lost by rounding
 
   static constexpr std::size_t kDoubles = 4;  ///< see numbersOf

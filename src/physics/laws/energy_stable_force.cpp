@@ -182,7 +182,7 @@ void exertElastic(EnergyStableMotion<Real>& m,
                   EnergyStableState<Real>& state) noexcept {
   const bool is_contact = law.isContact();
   const bool is_open = is_contact && !(m.p > Real(0));
-  const bool has_push = !law.onlyBrakes();
+  const bool has_push = law.hasPush();
   const EnergyStableForce<Real> at =
       is_open || !has_push ? EnergyStableForce<Real>{} : law.push(m.p);
   const Real kt = m.give * std::max(Real(0), at.slope);

@@ -146,9 +146,9 @@ struct EnergyStableLaw {
     return form->potential == nullptr ? Real(0) : form->potential(*this, p);
   }
   Real dampingAt(Real p, Real v) const noexcept { return form->damping(*this, p, v); }
-  /// True of a contact that only brakes what comes towards it: its elastic force is 0 at any p.
-  bool onlyBrakes() const noexcept {
-    return isContact() && !form->is_lossy && stiffness == Real(0) && nonlinearity == Real(0);
+  /// False of a contact whose elastic force is 0 at any p: it is a damper that comes and goes.
+  bool hasPush() const noexcept {
+    return !isContact() || form->is_lossy || stiffness != Real(0) || nonlinearity != Real(0);
   }
   EnergyStableForce<Real> slip(Real v) const noexcept { return form->slip(*this, v); }
 };

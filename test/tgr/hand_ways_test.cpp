@@ -38,7 +38,7 @@ class HandWaysTest : public ::testing::Test {
   }
   void glide(double target_m, double glide_s, double after_s = 0.0) {
     Strokes strokes;
-    ways_.glide(kHand, target_m, glide_s, after_s, now_s_, strokes);
+    ways_.glide(kHand, target_m, 0.0, glide_s, after_s, now_s_, strokes);
     take(strokes);
   }
   /// \return the greatest speed meanwhile, m/s

@@ -168,7 +168,9 @@ TEST(KeyboardSearchTest, NoNoteHangsAfterAnythingAndAPanic) {
   keyboard.use(readPlayMap("keys:\n"
                            "  - {notes: [60, 67], slices: [0, 1, 2], to: 10 mm,\n"
                            "     pressure_to: 12 mm, bend: {slices: 5, from: -2 mm, to: 3 mm}}\n"
-                           "  - {notes: [68, 70], slices: [2, 3], from: 1 mm, to: 5 mm}\n",
+                           "  - {notes: [68, 69], slices: [2, 3], from: 1 mm, to: 5 mm}\n"
+                           "  - {notes: [70, 70], slices: 3, to: 5 mm, legato: turns, with: [\n"
+                           "     {slices: 4, to: 3 mm, legato: glides, after: 0.1}]}\n",
                            "map.yaml"),
                0.0);
   const std::array<std::uint8_t, 8> controllers{64, 66, 67, 74, 6, 100, 101, 121};
@@ -195,7 +197,7 @@ TEST(KeyboardSearchTest, NoNoteHangsAfterAnythingAndAPanic) {
       play(kind | channel, first, is_controller && first > 99 ? datum % 7 : datum);
     }
     play(0xb0, round % 2 == 0 ? 120 : 123, 0);
-    for (const auto& [slice, rest] : std::map<int, double>{{0, 0.0}, {1, 0.0}}) {
+    for (const auto& [slice, rest] : std::map<int, double>{{0, 0.0}, {1, 0.0}, {4, 0.0}}) {
       EXPECT_EQ(told[slice], rest) << slice << " in round " << round;
     }
     EXPECT_THAT(told[3], ::testing::AnyOf(0.0, 0.001)) << "0: it was told nothing yet";

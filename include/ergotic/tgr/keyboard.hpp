@@ -50,7 +50,8 @@ class Keyboard {
   Played play(const GamepadMove& move, int pad, double now_s);
   /// A gamepad is gone: its notes end, and hands that its axes moved are let go of.
   Strokes unplug(int pad, double now_s);
-  /// The lowest note, as it is given to `note`, that moves a hand.
+  /// The lowest note, as it is given to `note`, that moves a hand; one whose line begins with this
+  /// hand, if there is any.
   std::optional<int> noteOf(const HandWays::Hand& hand) const;
 
   /// Plays a note without a channel.
@@ -64,16 +65,31 @@ class Keyboard {
   Learner& learner() { return learner_; }
 
  private:
-  struct Key {
+  /// A note that the map has.
+  struct Note {
     const KeyLine* line;
     std::size_t number;  // of the note in its line
+  };
+  /// One of the hands that a note moves.
+  struct Key {
+    const KeyMove* move;
+    std::size_t number;
     HandWays::Hand hand;
   };
   using Name = std::pair<int, int>;  // channel and note of a key
   struct Down {
     bool is_held = false;    // by a finger; else a pedal keeps it
     bool is_caught = false;  // by sostenuto
+    std::int64_t order = 0;  // later notes have larger numbers
     double pressure = 0.0;
+  };
+  /// What the notes that are down want of one hand.
+  struct Wish {
+    double depth = 0.0;     // of the key that is down most, 0...1; 0: all are up
+    double pressure = 0.0;  // the largest, of fingers
+    double to_m = 0.0;      // of the note that counts: of those that are down most, the last one
+    double from_m = 0.0;
+    std::optional<double> pressure_to_m;
   };
   /// Expression values last received on a channel; a note that begins on it starts with these.
   struct Expression {
@@ -88,11 +104,14 @@ class Keyboard {
     std::set<int> axes;     // that have moved since there is this map
   };
 
-  std::optional<Key> keyOf(int note) const;
+  std::optional<Note> lineOf(int note) const;
+  std::vector<Key> keysOf(int note) const;
   double depthOf(const Down& down) const;
-  double depthOf(const Key& key) const;
-  double placeOf(const Key& key) const;
-  void strike(const Key& key, double target_m, double speed, double after_s, Strokes& strokes);
+  Wish wishOf(const HandWays::Hand& hand) const;
+  double placeOf(const Key& key, const Wish& wish) const;
+  double strike(const Key& key, double target_m, double speed, double after_s, Strokes& strokes);
+  void press(const Key& key, double velocity, Strokes& strokes);
+  void turn(const Key& key, double speed, bool is_down, Strokes& strokes);
   void press(const Name& name, int velocity, Strokes& strokes);
   void release(const Name& name, Strokes& strokes);
   void goBack(const Key& key, Strokes& strokes);
@@ -108,7 +127,8 @@ class Keyboard {
   void setKeyPressure(int channel, int note, int value, Played& played);
   void setControl(const Control& control, int channel, double share, Played& played);
   void express(const Control& control, std::optional<int> channel, double share, Played& played);
-  void moveFor(const Key& key, const Control& control, double share, Played& played);
+  void settleAll(int note, Strokes& strokes);
+  void moveFor(const Note& note, const Control& control, double share, Played& played);
   void moveByMap(const Control& control, double share, Played& played);
   void move(const Motion& motion,
             std::optional<std::size_t> number,
@@ -129,6 +149,7 @@ class Keyboard {
   double pedal_depth_ = 0.0;  // how far down the sustain pedal keeps keys, 0...1
   double soft_ = 0.0;         // 0...1
   bool sostenuto_ = false;
+  std::int64_t pressed_ = 0;  // notes so far
   std::map<Name, Down> down_;
   std::map<int, Pad> pads_;
   std::map<Name, int> key_pressures_;         // those above 0

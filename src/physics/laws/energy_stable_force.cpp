@@ -161,12 +161,28 @@ void keepFromPulling(EnergyStableMotion<Real>& m, const EnergyStableState<Real>&
   }
 }
 
+/// The most that a damped contact which lasts for several steps can still hold as it lets go: what
+/// it stored at the sample before, and what the motion of a step brings. While it was closed it may
+/// have taken up more, as a finger does that glides along a bowed string; that given back within a
+/// step would be a blow.
+template <class Real>
+Real mostLeft(const EnergyStableMotion<Real>& m, const EnergyStableLaw<Real>& law) noexcept {
+  const Real last = m.p + std::abs(m.coasting) / Real(2);
+  const bool was_closed = last > Real(0) && law.hasPush() && m.own_give > Real(0);
+  if (!was_closed || !(law.damping > Real(0)) ||
+      m.own_give * law.push(last).slope > Real(kShortContact)) {
+    return std::numeric_limits<Real>::max();
+  }
+  return Real(2) * law.potential(last) + m.coasting * m.coasting / (Real(2) * m.own_give);
+}
+
 /// The link has let go: what is left in its tank goes back, once it opens, less what the law loses.
 /// If something pushes it to again before that, it keeps the rest for the next contact.
 template <class Real>
 void release(EnergyStableMotion<Real>& m,
              const EnergyStableLaw<Real>& law,
              EnergyStableState<Real>& state) noexcept {
+  lose(std::max(Real(0), state.tank - mostLeft(m, law)), state);
   m.empties = m.opening > Real(0);
   m.force = m.empties ? largestForce(state.tank, m.opening, m.give) : Real(0);
   if (law.form->is_lossy && state.phase == Real(0)) {

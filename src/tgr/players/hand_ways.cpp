@@ -15,10 +15,12 @@ Stroke lineTo(const HandWays::Hand& hand, double target_m, double after_s) {
 
 }  // namespace
 
-double HandWays::Way::lineAt(double time_s) const {
+double HandWays::Way::placeAt(double time_s) const {
   const double share =
       end_s > begin_s ? std::clamp((time_s - begin_s) / (end_s - begin_s), 0.0, 1.0) : 1.0;
-  return share == 1.0 ? to_m : from_m + share * (to_m - from_m);
+  const double part =
+      is_glide ? share * share * share * (10.0 + share * (-15.0 + 6.0 * share)) : share;
+  return share == 1.0 ? to_m : from_m + part * (to_m - from_m);
 }
 
 double HandWays::toldOf(const Hand& hand, double rest_m) const {
@@ -26,8 +28,14 @@ double HandWays::toldOf(const Hand& hand, double rest_m) const {
   return found == ways_.end() ? rest_m : found->second.to_m;
 }
 
+double HandWays::placeAt(const Hand& hand, double rest_m, double time_s) const {
+  const auto found = ways_.find(hand);
+  return found == ways_.end() ? rest_m : found->second.placeAt(time_s);
+}
+
 void HandWays::glide(const Hand& hand,
                      double target_m,
+                     double rest_m,
                      double glide_s,
                      double after_s,
                      double now_s,
@@ -36,11 +44,30 @@ void HandWays::glide(const Hand& hand,
   Way& last = way->second;
   const bool is_on_line = !is_new && !last.is_glide && last.begin_s < now_s && now_s < last.end_s;
   if (is_on_line) {
-    strokes.push_back(lineTo(hand, last.lineAt(now_s), 0.0));
+    strokes.push_back(lineTo(hand, last.placeAt(now_s), 0.0));
   }
   strokes.push_back({hand.first, hand.second, target_m, glide_s, after_s, false});
   const double begin_s = now_s + after_s;
-  last = {begin_s, begin_s + glide_s, target_m, target_m, true};
+  const double from_m = is_new ? rest_m : last.placeAt(begin_s);
+  last = {begin_s, begin_s + glide_s, from_m, target_m, true};
+}
+
+void HandWays::draw(const Hand& hand,
+                    double target_m,
+                    double rest_m,
+                    double speed,
+                    double after_s,
+                    double now_s,
+                    Strokes& strokes) {
+  const double begin_s = now_s + after_s;
+  const double from_m = placeAt(hand, rest_m, begin_s);
+  const double way_s = std::min(std::abs(target_m - from_m) / speed, HandMove::kMaxGlideS);
+  strokes.push_back(lineTo(hand, placeAt(hand, rest_m, now_s), 0.0));
+  if (after_s > 0.0) {
+    strokes.push_back(lineTo(hand, from_m, after_s));
+  }
+  strokes.push_back(lineTo(hand, target_m, after_s + way_s));
+  ways_[hand] = {begin_s, begin_s + way_s, from_m, target_m, false};
 }
 
 void HandWays::follow(const Hand& hand,
@@ -58,13 +85,26 @@ void HandWays::follow(const Hand& hand,
     return;
   }
   const double begin_s = std::max(now_s, last.is_glide ? last.end_s : last.begin_s);
-  const double from_m = last.lineAt(begin_s);
+  const double from_m = last.placeAt(begin_s);
   if (last.is_glide || begin_s < last.end_s) {  // else it stands there
     strokes.push_back(lineTo(hand, from_m, begin_s - now_s));
   }
   const double way_s = std::clamp(std::abs(target_m - from_m) / speed, kLagS, HandMove::kMaxGlideS);
   last = {begin_s, begin_s + way_s, from_m, target_m, false};
   strokes.push_back(lineTo(hand, target_m, last.end_s - now_s));
+}
+
+void HandWays::stop(const Hand& hand, double now_s, Strokes& strokes) {
+  const auto found = ways_.find(hand);
+  if (found == ways_.end() || now_s >= found->second.end_s) {
+    return;
+  }
+  Way& last = found->second;
+  const double from_m = last.placeAt(now_s);
+  const double to_m = last.placeAt(now_s + 0.5 * kLagS);
+  strokes.push_back(lineTo(hand, from_m, 0.0));
+  strokes.push_back(lineTo(hand, to_m, kLagS));
+  last = {now_s, now_s + kLagS, from_m, to_m, false};
 }
 
 void HandWays::letGo(const Hand& hand, Strokes& strokes) {

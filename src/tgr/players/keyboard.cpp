@@ -16,9 +16,13 @@ constexpr double kFastestVelocity = 127.0;
 constexpr int kNoChannel = 16;
 constexpr double kSoftest = 2.0 / 3.0;  // of the velocity, with the soft pedal down
 
-double speedOf(const KeyLine& line, double velocity) {
-  return line.slowest *
-         std::pow(line.fastest / line.slowest, (velocity - 1.0) / (kFastestVelocity - 1.0));
+double speedOf(const KeyMove& move, double velocity) {
+  return move.slowest *
+         std::pow(move.fastest / move.slowest, (velocity - 1.0) / (kFastestVelocity - 1.0));
+}
+
+double glideOf(double way_m, double speed) {
+  return std::min(HandMove::kPeakOfMean * std::abs(way_m) / speed, HandMove::kMaxGlideS);
 }
 
 }  // namespace
@@ -38,6 +42,11 @@ Strokes Keyboard::use(PlayMap map, double now_s) {
   for (const KeyLine& line : map_.keys) {
     let_go(line.bend.value_or(Motion()));
     let_go(line.slide.value_or(Motion()));
+    for (const KeyMove& move : line.moves) {
+      for (std::size_t i = 0; move.release != Release::kReturns && i < move.indices.size(); ++i) {
+        ways_.letGo(move.handOf(i), strokes);
+      }
+    }
   }
   map_ = std::move(map);
   for (auto& [number, pad] : pads_) {
@@ -55,64 +64,96 @@ void Keyboard::forgetHands() {
   ways_.clear();
 }
 
-std::optional<Keyboard::Key> Keyboard::keyOf(int note) const {
+std::optional<Keyboard::Note> Keyboard::lineOf(int note) const {
   const int sounding = note + map_.transpose;
   for (const KeyLine& line : map_.keys) {
     if (sounding >= line.first_note && sounding <= line.last_note) {
-      const auto number = static_cast<std::size_t>(sounding - line.first_note);
-      return Key{&line, number, {line.end_effector, line.indices[number % line.indices.size()]}};
+      return Note{&line, static_cast<std::size_t>(sounding - line.first_note)};
     }
   }
   return std::nullopt;
 }
 
-std::optional<int> Keyboard::noteOf(const HandWays::Hand& hand) const {
-  constexpr int kNotes = 128;
-  for (int note = 0; note < kNotes; ++note) {
-    if (const auto key = keyOf(note); key && key->hand == hand) {
-      return note;
+std::vector<Keyboard::Key> Keyboard::keysOf(int note) const {
+  std::vector<Key> keys;
+  if (const auto found = lineOf(note)) {
+    for (const KeyMove& move : found->line->moves) {
+      keys.push_back({&move, found->number, move.handOf(found->number)});
     }
   }
-  return std::nullopt;
+  return keys;
+}
+
+std::optional<int> Keyboard::noteOf(const HandWays::Hand& hand) const {
+  constexpr int kNotes = 128;
+  std::optional<int> among_others;
+  for (int note = 0; note < kNotes; ++note) {
+    const std::vector<Key> keys = keysOf(note);
+    if (!keys.empty() && keys.front().hand == hand) {
+      return note;
+    }
+    const bool moves_it =
+        std::any_of(keys.begin(), keys.end(), [&hand](const Key& key) { return key.hand == hand; });
+    if (moves_it && !among_others) {
+      among_others = note;
+    }
+  }
+  return among_others;
 }
 
 double Keyboard::depthOf(const Down& down) const {
   return down.is_held || down.is_caught ? 1.0 : pedal_depth_;
 }
 
-/// Depth of a key: the largest of all notes that play it.
-double Keyboard::depthOf(const Key& key) const {
-  double depth = 0.0;
+Keyboard::Wish Keyboard::wishOf(const HandWays::Hand& hand) const {
+  Wish wish;
+  std::int64_t last = -1;
   for (const auto& [name, down] : down_) {
-    if (keyOf(name.second)->hand == key.hand) {
-      depth = std::max(depth, depthOf(down));
+    for (const Key& key : keysOf(name.second)) {
+      if (key.hand != hand) {
+        continue;
+      }
+      wish.pressure = std::max(wish.pressure, down.is_held ? down.pressure : 0.0);
+      const double depth = depthOf(down);
+      if (depth > wish.depth || (depth == wish.depth && down.order > last)) {
+        last = down.order;
+        wish.depth = depth;
+        wish.to_m = key.move->toOf(key.number);
+        wish.from_m = key.move->from_m;
+        wish.pressure_to_m = key.move->pressure_to_m;
+      }
     }
   }
-  return depth;
+  return wish;
 }
 
-double Keyboard::placeOf(const Key& key) const {
-  const KeyLine& line = *key.line;
-  double pressure = 0.0;
-  for (const auto& [name, down] : down_) {
-    if (down.is_held && keyOf(name.second)->hand == key.hand) {
-      pressure = std::max(pressure, down.pressure);
-    }
+double Keyboard::placeOf(const Key& key, const Wish& wish) const {
+  const bool returns = key.move->release == Release::kReturns;
+  if (wish.depth == 0.0) {
+    return returns ? key.move->from_m : ways_.toldOf(key.hand, key.move->from_m);
   }
-  if (pressure > 0.0) {  // a finger is there, so that it is down
-    return line.to_m + pressure * (line.pressure_to_m.value_or(line.to_m) - line.to_m);
+  if (wish.pressure > 0.0) {  // a finger is there, so that it is down
+    return wish.to_m + wish.pressure * (wish.pressure_to_m.value_or(wish.to_m) - wish.to_m);
   }
-  const double depth = depthOf(key);
-  return depth == 1.0 ? line.to_m : line.from_m + depth * (line.to_m - line.from_m);
+  return wish.depth == 1.0 || !returns ? wish.to_m
+                                       : wish.from_m + wish.depth * (wish.to_m - wish.from_m);
 }
 
-/// Strikes a key: the hand glides for the time that the whole way between the two ends takes.
-void Keyboard::strike(
+/// Strikes a key: the hand glides for the time that the whole way between the two ends takes; one
+/// that need not begin at its rest, for as long as its own way takes.
+/// \return for how long, s
+double Keyboard::strike(
     const Key& key, double target_m, double speed, double after_s, Strokes& strokes) {
-  const double way = std::abs(key.line->to_m - key.line->from_m);
-  ways_.glide(key.hand, target_m,
-              std::min(HandMove::kPeakOfMean * way / speed, HandMove::kMaxGlideS), after_s, now_s_,
-              strokes);
+  const KeyMove& move = *key.move;
+  const bool has_ends = move.release == Release::kReturns && move.legato == Legato::kLifts;
+  const double way_m = has_ends ? move.toOf(key.number) - move.from_m
+                                : target_m - ways_.placeAt(key.hand, move.from_m, now_s_ + after_s);
+  if (way_m == 0.0 && !has_ends) {
+    return 0.0;
+  }
+  const double glide_s = glideOf(way_m, speed);
+  ways_.glide(key.hand, target_m, move.from_m, glide_s, after_s, now_s_, strokes);
+  return glide_s;
 }
 
 Strokes Keyboard::note(int note, int velocity, double now_s) {
@@ -127,26 +168,53 @@ Strokes Keyboard::note(int note, int velocity, double now_s) {
 }
 
 void Keyboard::press(const Name& name, int velocity, Strokes& strokes) {
-  const auto key = keyOf(name.second);
-  if (!key) {
-    return;
-  }
-  const KeyLine& line = *key->line;
-  const double speed = speedOf(line, std::max(velocity * (1.0 - soft_ * (1.0 - kSoftest)), 1.0));
-  if (line.strikes) {
-    strike(*key, line.to_m, speed, 0.0, strokes);
-    strike(*key, line.from_m, line.back, strokes.back().glide_s, strokes);
-    return;
-  }
-  double after_s = 0.0;
-  if (depthOf(*key) > 0.0) {  // it has to come up before it can be pressed again
-    strike(*key, line.from_m, line.fastest, 0.0, strokes);
-    after_s = strokes.back().glide_s;
-  }
-  strike(*key, line.to_m, speed, after_s, strokes);
-  Down& down = down_[name];
+  const std::vector<Key> keys = keysOf(name.second);
+  const double softened = std::max(velocity * (1.0 - soft_ * (1.0 - kSoftest)), 1.0);
+  Down down;
   down.is_held = true;
-  down.pressure = 0.0;
+  down.order = pressed_++;
+  for (const Key& key : keys) {
+    press(key, softened, strokes);
+  }
+  const auto strikes = [](const Key& key) { return key.move->strikes; };
+  if (!std::all_of(keys.begin(), keys.end(), strikes)) {
+    Down& known = down_[name];
+    down.is_caught = known.is_caught;
+    known = down;
+  }
+}
+
+void Keyboard::press(const Key& key, double velocity, Strokes& strokes) {
+  const KeyMove& move = *key.move;
+  const double to_m = move.toOf(key.number);
+  const double speed = speedOf(move, velocity);
+  double after_s = move.after_s;
+  if (move.strikes) {
+    const double there_s = strike(key, to_m, speed, after_s, strokes);
+    strike(key, move.from_m, move.back, after_s + there_s, strokes);
+    return;
+  }
+  const bool is_down = wishOf(key.hand).depth > 0.0;
+  if (move.legato == Legato::kTurns) {
+    return turn(key, speed, is_down, strokes);
+  }
+  if (move.legato == Legato::kLifts && is_down) {
+    after_s = std::max(after_s, strike(key, move.from_m, move.fastest, 0.0, strokes));
+  }
+  strike(key, to_m, speed, after_s, strokes);
+}
+
+/// Draws a hand to the farther end of its way; one that is going there for another note goes on.
+/// One that has not moved yet is at 0.
+void Keyboard::turn(const Key& key, double speed, bool is_down, Strokes& strokes) {
+  const KeyMove& move = *key.move;
+  const double to_m = move.toOf(key.number);
+  const double place_m = ways_.placeAt(key.hand, 0.0, now_s_ + move.after_s);
+  const bool goes_back = std::abs(place_m - to_m) < std::abs(place_m - move.from_m);
+  const double target_m = goes_back ? move.from_m : to_m;
+  if (!is_down || target_m != ways_.toldOf(key.hand, 0.0)) {
+    ways_.draw(key.hand, target_m, 0.0, speed, move.after_s, now_s_, strokes);
+  }
 }
 
 void Keyboard::release(const Name& name, Strokes& strokes) {
@@ -154,33 +222,53 @@ void Keyboard::release(const Name& name, Strokes& strokes) {
   if (found == down_.end()) {
     return;
   }
-  const Key key = *keyOf(name.second);
   Down& down = found->second;
   down.is_held = false;
   down.pressure = 0.0;
   if (depthOf(down) == 0.0) {
     down_.erase(found);
   }
-  goBack(key, strokes);
+  for (const Key& key : keysOf(name.second)) {
+    goBack(key, strokes);
+  }
 }
 
 /// Returns a key as far as its other notes and the pedals permit.
 void Keyboard::goBack(const Key& key, Strokes& strokes) {
-  const double place_m = placeOf(key);
-  const double told_m = ways_.toldOf(key.hand, key.line->from_m);
+  if (key.move->strikes) {
+    return;
+  }
+  const Wish wish = wishOf(key.hand);
+  if (wish.depth == 0.0 && key.move->release == Release::kStops) {
+    return ways_.stop(key.hand, now_s_, strokes);
+  }
+  if (wish.depth > 0.0 && key.move->legato == Legato::kTurns) {
+    return;  // it goes on for the other note
+  }
+  const double place_m = placeOf(key, wish);
+  const double told_m = ways_.toldOf(key.hand, key.move->from_m);
   if (place_m == told_m) {
     return;
   }
-  if (depthOf(key) == 1.0) {
+  if (wish.depth == 1.0) {
     return settle(key, strokes);
   }
-  const double glide_s = HandMove::kPeakOfMean * std::abs(place_m - told_m) / key.line->back;
-  ways_.glide(key.hand, place_m, std::min(glide_s, HandMove::kMaxGlideS), 0.0, now_s_, strokes);
+  ways_.glide(key.hand, place_m, key.move->from_m, glideOf(place_m - told_m, key.move->back), 0.0,
+              now_s_, strokes);
 }
 
 /// Follows a pedal, or a finger that presses more or less.
 void Keyboard::settle(const Key& key, Strokes& strokes) {
-  ways_.follow(key.hand, placeOf(key), key.line->from_m, key.line->back, now_s_, strokes);
+  if (!key.move->strikes && key.move->legato != Legato::kTurns) {
+    ways_.follow(key.hand, placeOf(key, wishOf(key.hand)), key.move->from_m, key.move->back, now_s_,
+                 strokes);
+  }
+}
+
+void Keyboard::settleAll(int note, Strokes& strokes) {
+  for (const Key& key : keysOf(note)) {
+    settle(key, strokes);
+  }
 }
 
 /// Handles pedals; other controllers have no effect.
@@ -220,14 +308,13 @@ void Keyboard::settleKept(Strokes& strokes) {
   std::map<HandWays::Hand, Key> kept;
   for (auto next = down_.begin(); next != down_.end();) {
     const auto [name, down] = *next;
-    if (!down.is_held) {
-      const Key key = *keyOf(name.second);
+    for (const Key& key : down.is_held ? std::vector<Key>() : keysOf(name.second)) {
       kept.emplace(key.hand, key);
     }
     next = depthOf(down) == 0.0 ? down_.erase(next) : std::next(next);
   }
   for (const auto& [hand, key] : kept) {
-    if (depthOf(key) == 0.0) {
+    if (wishOf(hand).depth == 0.0) {
       goBack(key, strokes);
     } else {
       settle(key, strokes);

@@ -88,18 +88,18 @@ void Keyboard::playNote(const Name& name, int velocity, Played& played) {
   if (velocity == 0) {
     return release(name, played.strokes);
   }
-  const auto key = keyOf(name.second);
-  const bool has_expression = key && zones_.isMember(name.first);
+  const auto note = lineOf(name.second);
+  const bool has_expression = note && zones_.isMember(name.first);
   if (!has_expression) {
     return press(name, velocity, played.strokes);
   }
   const Expression& now = expressions_[static_cast<std::size_t>(name.first)];
-  moveFor(*key, kBendControl, now.bend, played);
-  moveFor(*key, kSlideControl, now.slide, played);
+  moveFor(*note, kBendControl, now.bend, played);
+  moveFor(*note, kSlideControl, now.slide, played);
   press(name, velocity, played.strokes);
   if (const auto down = down_.find(name); down != down_.end()) {
     down->second.pressure = now.pressure;
-    settle(*key, played.strokes);
+    settleAll(name.second, played.strokes);
   }
 }
 
@@ -141,7 +141,7 @@ void Keyboard::setKeyPressure(int channel, int note, int value, Played& played) 
   }
   if (const auto down = down_.find(name); down != down_.end() && down->second.is_held) {
     down->second.pressure = value / kMax;
-    settle(*keyOf(note), played.strokes);
+    settleAll(note, played.strokes);
   }
   if (!zones_.isMember(channel)) {
     int most = 0;
@@ -175,22 +175,21 @@ void Keyboard::express(const Control& control,
     if (!down.is_held || (channel && name.first != *channel)) {
       continue;
     }
-    const Key key = *keyOf(name.second);
     if (control == kPressureControl) {
       down.pressure = share;
-      settle(key, played.strokes);
+      settleAll(name.second, played.strokes);
     } else {
-      moveFor(key, control, share, played);
+      moveFor(*lineOf(name.second), control, share, played);
     }
   }
 }
 
 /// Moves the targets of bend or slide of one note.
-void Keyboard::moveFor(const Key& key, const Control& control, double share, Played& played) {
-  if (control == kBendControl && key.line->bend) {
-    move(*key.line->bend, key.number, control, share, played);
-  } else if (control == kSlideControl && key.line->slide) {
-    move(*key.line->slide, key.number, control, share, played);
+void Keyboard::moveFor(const Note& note, const Control& control, double share, Played& played) {
+  if (control == kBendControl && note.line->bend) {
+    move(*note.line->bend, note.number, control, share, played);
+  } else if (control == kSlideControl && note.line->slide) {
+    move(*note.line->slide, note.number, control, share, played);
   }
 }
 

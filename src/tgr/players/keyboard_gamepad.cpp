@@ -40,13 +40,14 @@ const std::vector<std::string>& gamepadAxisNames() {
 /// the opposite directions move them as far to the other side.
 void Keyboard::useUsualGamepad() {
   std::vector<HandWays::Hand> hands;
-  std::vector<const KeyLine*> lines;  // [hands]
+  std::vector<const KeyMove*> moves;  // [hands]
   for (const KeyLine& line : map_.keys) {
-    for (const int index : line.indices) {
-      const HandWays::Hand hand{line.end_effector, index};
+    const KeyMove& move = line.moves.front();
+    for (std::size_t i = 0; i < move.indices.size(); ++i) {
+      const HandWays::Hand hand = move.handOf(i);
       if (std::find(hands.begin(), hands.end(), hand) == hands.end() && noteOf(hand)) {
         hands.push_back(hand);
-        lines.push_back(&line);
+        moves.push_back(&move);
       }
     }
   }
@@ -58,8 +59,8 @@ void Keyboard::useUsualGamepad() {
     Motion motion;
     motion.end_effector = hands[i].first;
     motion.indices = {hands[i].second};
-    motion.to_m = lines[i]->to_m;
-    motion.from_m = withinReach(2.0 * lines[i]->from_m - motion.to_m, hands[i].first.empty());
+    motion.to_m = moves[i]->to_m.front();
+    motion.from_m = withinReach(2.0 * moves[i]->from_m - motion.to_m, hands[i].first.empty());
     map_.controls.push_back({axisControl(static_cast<int>(axis)), motion});
   }
 }

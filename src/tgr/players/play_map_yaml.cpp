@@ -20,6 +20,7 @@ constexpr Limits kVelocityLimits{"", 1.0, 127.0};
 constexpr Limits kIndexLimits{"", 0.0, kMaxSlices - 1.0};
 constexpr Limits kPlaceLimits{"m", -1.0, 1.0};
 constexpr Limits kSpeedLimits{"m/s", 0.001, 2.0};
+constexpr Limits kAfterLimits{"s", 0.0, 1.0};
 constexpr Limits kTransposeLimits{"", -60.0, 60.0};
 
 /// Slices, or coordinates of an end-effector.
@@ -59,9 +60,86 @@ std::optional<Motion> readMotionUnder(const char* key, const YamlMap& line) {
   return line.has(key) ? std::optional(readMotion(line.map(key), {})) : std::nullopt;
 }
 
-KeyLine readKeys(const YamlMap& map) {
-  map.allow({"notes", "slices", "end_effector", "coordinates", "from", "to", "speed", "back",
-             "strikes", "pressure_to", "bend", "slide"});
+const std::vector<std::string>& keysOfMoves() {
+  static const std::vector<std::string> keys = {
+      "slices", "end_effector", "coordinates", "from",    "to",     "speed",
+      "back",   "after",        "strikes",     "release", "legato", "pressure_to"};
+  return keys;
+}
+
+/// What stays down until the key is released has no meaning for a hand that strikes.
+void refuseBesideStrikes(const YamlMap& map, const char* key) {
+  if (map.has(key)) {
+    map.fail(key, "'" + std::string(key) + "' of " + map.what() +
+                      " stands beside strikes, allowed: of hands that stay down");
+  }
+}
+
+/// \param notes  how many notes the line has
+KeyMove readKeyMove(const YamlMap& map, std::size_t notes) {
+  KeyMove move;
+  const Places places = readPlaces(map);
+  move.end_effector = places.end_effector;
+  move.indices = places.indices;
+  move.from_m = map.number("from", kPlaceLimits, move.from_m);
+  move.to_m = map.numbers("to", 1, notes, kPlaceLimits);
+  if (move.to_m.size() != 1 && move.to_m.size() != notes) {
+    map.fail("to", "'to' of " + map.what() + " has " + std::to_string(move.to_m.size()) +
+                       " places, allowed: 1, or " + std::to_string(notes) + ", one for each note");
+  }
+  if (map.has("speed")) {
+    const std::vector<double> speeds = map.numbers("speed", 1, 2, kSpeedLimits);
+    move.slowest = speeds.front();
+    move.fastest = speeds.back();
+  }
+  move.back = map.number("back", kSpeedLimits, move.back);
+  move.after_s = map.number("after", kAfterLimits, move.after_s);
+  move.strikes = map.flag("strikes", move.strikes);
+  if (move.strikes) {
+    for (const char* const key : {"release", "legato", "pressure_to"}) {
+      refuseBesideStrikes(map, key);
+    }
+  }
+  if (map.has("release")) {
+    move.release = static_cast<Release>(map.choice("release", {"returns", "stays", "stops"}));
+  }
+  move.legato = move.release == Release::kReturns ? Legato::kLifts : Legato::kGlides;
+  if (map.has("legato")) {
+    move.legato = static_cast<Legato>(map.choice("legato", {"lifts", "glides", "turns"}));
+  }
+  if (map.has("pressure_to") && move.legato == Legato::kTurns) {
+    map.fail("pressure_to", "'pressure_to' of " + map.what() +
+                                " stands beside turns, allowed: of hands that stay down");
+  }
+  if (map.has("pressure_to")) {
+    move.pressure_to_m = map.number("pressure_to", kPlaceLimits);
+  }
+  return move;
+}
+
+/// Calls `read` for each map of the list under a key, if there is one.
+template <class Read>
+void forEachOf(const scene::SceneBuilder& builder,
+               const YamlMap& map,
+               const std::string& key,
+               const Read& read) {
+  if (!map.has(key)) {
+    return;
+  }
+  const scene::Node& list = map.at(key);
+  if (!list.isList()) {
+    map.fail(key, "'" + key + "' is " + scene::kindOf(list) + ", allowed: a list of maps");
+  }
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    read(YamlMap(builder, list[i], "entry " + std::to_string(i + 1) + " of '" + key + "'",
+                 scene::placeOf(list[i], map.placeAt(key))));
+  }
+}
+
+KeyLine readKeys(const scene::SceneBuilder& builder, const YamlMap& map) {
+  std::vector<std::string> keys = keysOfMoves();
+  keys.insert(keys.begin(), {"notes", "with", "bend", "slide"});
+  map.allow(keys);
   KeyLine line;
   if (map.has("notes")) {
     const std::vector<int> notes = map.integers("notes", 1, 2, kNoteLimits);
@@ -72,25 +150,12 @@ KeyLine readKeys(const YamlMap& map) {
     map.fail("notes", "'notes' of " + map.what() + " ends at " + std::to_string(line.last_note) +
                           ", allowed: " + std::to_string(line.first_note) + " or more");
   }
-  const Places places = readPlaces(map);
-  line.end_effector = places.end_effector;
-  line.indices = places.indices;
-  line.from_m = map.number("from", kPlaceLimits, line.from_m);
-  line.to_m = map.number("to", kPlaceLimits);
-  if (map.has("speed")) {
-    const std::vector<double> speeds = map.numbers("speed", 1, 2, kSpeedLimits);
-    line.slowest = speeds.front();
-    line.fastest = speeds.back();
-  }
-  line.back = map.number("back", kSpeedLimits, line.back);
-  line.strikes = map.flag("strikes", line.strikes);
-  if (map.has("pressure_to")) {
-    if (line.strikes) {
-      map.fail("pressure_to", "'pressure_to' of " + map.what() +
-                                  " stands beside strikes, allowed: of hands that stay down");
-    }
-    line.pressure_to_m = map.number("pressure_to", kPlaceLimits);
-  }
+  const auto notes = static_cast<std::size_t>(line.last_note - line.first_note + 1);
+  line.moves.push_back(readKeyMove(map, notes));
+  forEachOf(builder, map, "with", [&](const YamlMap& other) {
+    other.allow(keysOfMoves());
+    line.moves.push_back(readKeyMove(other, notes));
+  });
   line.bend = readMotionUnder("bend", map);
   line.slide = readMotionUnder("slide", map);
   return line;
@@ -141,35 +206,21 @@ void readGamepad(const YamlMap& map, PlayMap& play_map) {
   play_map.controls.push_back(line);
 }
 
-/// Calls `read` for each map of the list under a key, if there is one.
-template <class Read>
-void forEachOf(const Settings& settings, const std::string& key, const Read& read) {
-  const YamlMap& top = settings.top();
-  if (!top.has(key)) {
-    return;
-  }
-  const scene::Node& list = top.at(key);
-  if (!list.isList()) {
-    top.fail(key, "'" + key + "' is " + scene::kindOf(list) + ", allowed: a list of maps");
-  }
-  for (std::size_t i = 0; i < list.size(); ++i) {
-    read(YamlMap(settings.builder(), list[i],
-                 "entry " + std::to_string(i + 1) + " of '" + key + "'",
-                 scene::placeOf(list[i], top.placeAt(key))));
-  }
-}
-
 }  // namespace
 
 PlayMap readPlayMap(const std::string& text, const std::string& name) {
   const Settings settings(parseSettings(text, name), name, "the map of notes");
   settings.top().allow({"keys", "controllers", "gamepad", "transpose", "mpe"});
   PlayMap map;
-  forEachOf(settings, "keys", [&](const YamlMap& line) { map.keys.push_back(readKeys(line)); });
-  forEachOf(settings, "controllers",
-            [&](const YamlMap& line) { map.controls.push_back(readControl(line)); });
+  const auto for_each_of = [&](const char* key, const auto& read) {
+    forEachOf(settings.builder(), settings.top(), key, read);
+  };
+  for_each_of("keys",
+              [&](const YamlMap& line) { map.keys.push_back(readKeys(settings.builder(), line)); });
+  for_each_of("controllers",
+              [&](const YamlMap& line) { map.controls.push_back(readControl(line)); });
   map.has_gamepad = settings.top().has("gamepad");
-  forEachOf(settings, "gamepad", [&](const YamlMap& line) { readGamepad(line, map); });
+  for_each_of("gamepad", [&](const YamlMap& line) { readGamepad(line, map); });
   if (settings.top().has("transpose")) {
     map.transpose = settings.top().integer("transpose", kTransposeLimits);
   }

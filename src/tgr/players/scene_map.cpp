@@ -27,16 +27,18 @@ PlayMap usualMap(const scene::Scene& scene) {
   constexpr int kMiddleC = 60;
   constexpr double kWayM = 0.02;
   PlayMap map;
-  KeyLine line;
-  line.first_note = kMiddleC;
-  line.to_m = kWayM;
+  KeyMove move;
+  move.to_m = {kWayM};
   for (const scene::Port& port : scene.ports) {
     if (port.slice >= 0) {
-      line.indices.push_back(port.slice);
+      move.indices.push_back(port.slice);
     }
   }
-  if (!line.indices.empty()) {
-    std::sort(line.indices.begin(), line.indices.end());
+  if (!move.indices.empty()) {
+    std::sort(move.indices.begin(), move.indices.end());
+    KeyLine line;
+    line.first_note = kMiddleC;
+    line.moves.push_back(move);
     map.keys.push_back(line);
   }
   return map;
@@ -57,7 +59,12 @@ std::vector<std::string> leaveOut(PlayMap& map,
                                [&](const auto& line) { return is_missing(end_effector_of(line)); }),
                 lines.end());
   };
-  leave_out_of(map.keys, [](const KeyLine& line) { return line.end_effector; });
+  for (KeyLine& line : map.keys) {
+    leave_out_of(line.moves, [](const KeyMove& move) { return move.end_effector; });
+  }
+  map.keys.erase(std::remove_if(map.keys.begin(), map.keys.end(),
+                                [](const KeyLine& line) { return line.moves.empty(); }),
+                 map.keys.end());
   leave_out_of(map.controls, [](const ControlLine& line) { return line.motion.end_effector; });
   for (KeyLine& line : map.keys) {
     for (auto* const motion : {&line.bend, &line.slide}) {

@@ -206,10 +206,10 @@ std::map<int, std::set<double>> movedByNotes(const scene::Scene& scene) {
   if (file.empty()) {
     return moved;
   }
-  for (const tgr::KeyLine& key : tgr::readPlayMapFile(file).keys) {
-    if (key.end_effector.empty()) {
-      for (const int slice : key.indices) {
-        moved[slice].insert(key.to_m);
+  for (const tgr::KeyLine& line : tgr::readPlayMapFile(file).keys) {
+    for (const tgr::KeyMove& move : line.moves) {
+      for (std::size_t i = 0; move.end_effector.empty() && i < move.indices.size(); ++i) {
+        moved[move.indices[i]].insert(move.to_m.begin(), move.to_m.end());
       }
     }
   }

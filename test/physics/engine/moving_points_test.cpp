@@ -234,5 +234,44 @@ TEST(MovingPointsTest, OnAMeshFollowsTwoCoordinates) {
   }
 }
 
+/// How fast a string goes after a finger has let go of it that glided along it. The finger, 7 mm
+/// down, lifts evenly within 0.1 s.
+double speedAfterTheFinger(double damping, Precision precision) {
+  Plucked b(0.2);
+  const int place = b.point(b.on, 0.3);
+  scene::Connection& connection = b.scene.connections.back();
+  connection.along.guide = b.slice(0);
+  connection.along.scale = 20.0;
+  connection.speed = 4.0;
+  const int finger = b.mass(0.01, 5e-3);
+  b.spring(b.slice(1), finger, 700.0, 4.0);
+  b.link(LiaType::kContact, place, finger, 2e4, damping);
+  b.scene.lias.back().scheme = Scheme::kEnergyStable;
+  b.hear(40, 0, Quantity::kVelocity);
+  Player player(b.scene, {kRate, 14}, precision);
+  const auto wayAt = [](double t, double begin, double end) {
+    return std::clamp((t - begin) / (end - begin), 0.0, 1.0);
+  };
+  for (int n = 0; n < static_cast<int>(1.3 / kTick); ++n) {
+    const double t = n * kTick;
+    player.positions[0] = 0.01 * wayAt(t, 0.1, 0.2);
+    player.positions[1] = 5e-3 - 23e-3 * (wayAt(t, 0.0, 0.05) - wayAt(t, 1.0, 1.1));
+    player.tick();
+  }
+  double fastest = 0.0;
+  for (auto v = player.heard[0].begin() + static_cast<int>(kRate); v < player.heard[0].end(); ++v) {
+    fastest = std::max(fastest, std::abs(*v));
+  }
+  return fastest;
+}
+
+/// What a contact takes up while it is closed, as here by the string that it passes, it does not
+/// give back as a blow when it opens.
+TEST(MovingPointsTest, FingerThatHasGlidedLetsGoOfAStringQuietly) {
+  for (const Precision precision : {Precision::kFloat, Precision::kDouble}) {
+    EXPECT_LT(speedAfterTheFinger(0.05, precision), 0.3) << "m/s; 9 if all is given back";
+  }
+}
+
 }  // namespace
 }  // namespace ergotic::physics

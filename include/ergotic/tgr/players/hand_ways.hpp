@@ -39,13 +39,27 @@ class HandWays {
   /// \return target of its last command
   double toldOf(const Hand& hand, double rest_m) const;
 
-  /// Goes there on a path of minimum jerk. \param after_s  it begins so much later than now
+  /// \return where its commands have brought the hand by a time, or will have, m
+  double placeAt(const Hand& hand, double rest_m, double time_s) const;
+
+  /// Goes there on a path of minimum jerk.
+  /// \param rest_m  as `toldOf`. \param after_s  it begins so much later than now
   void glide(const Hand& hand,
              double target_m,
+             double rest_m,
              double glide_s,
              double after_s,
              double now_s,
              Strokes& strokes);
+
+  /// Goes there evenly, at a speed in m/s. \param rest_m, after_s  as for a glide
+  void draw(const Hand& hand,
+            double target_m,
+            double rest_m,
+            double speed,
+            double after_s,
+            double now_s,
+            Strokes& strokes);
 
   /// Moves a hand on a straight line, within `kLagS` if that is not too fast. A glide that is under
   /// way is finished first, as it makes the sound of a note.
@@ -56,6 +70,9 @@ class HandWays {
               double speed,
               double now_s,
               Strokes& strokes);
+
+  /// Stops a hand that is on its way, within `kLagS`.
+  void stop(const Hand& hand, double now_s, Strokes& strokes);
 
   /// Makes a hand let go; no effect on a hand without a command.
   void letGo(const Hand& hand, Strokes& strokes);
@@ -69,7 +86,7 @@ class HandWays {
     double from_m = 0.0;
     double to_m = 0.0;
     bool is_glide = false;
-    double lineAt(double time_s) const;  // of one that is no glide
+    double placeAt(double time_s) const;
   };
   std::map<Hand, Way> ways_;  // the newest of each
 };

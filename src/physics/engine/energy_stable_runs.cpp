@@ -40,7 +40,7 @@ bool EnergyStableRuns<Real>::mayWait(const scene::Scene& scene, const EnergyStab
     return follower.run >= 0 && at(follower.run) == ref.run && at(follower.index) == ref.link;
   };
   return scene::lawOf(run.law).kind == scene::Law::Kind::kGap && !reach_.isOnPlace(ref) &&
-         reach_.tapsAt(ref).empty() && isAwake(run.section_a) && isAwake(run.section_b) &&
+         isAwake(run.section_a) && isAwake(run.section_b) &&
          std::none_of(layout_.followers.begin(), layout_.followers.end(), isThis);
 }
 
@@ -51,7 +51,7 @@ void EnergyStableRuns<Real>::addLinks(const scene::Scene& scene,
   const std::vector<double> somewhere(2 * layout_.places.size(), 0.0);
   std::vector<EnergyStableLink> links;
   std::vector<OnPlaces> on_places;
-  std::vector<std::size_t> taps;
+  std::vector<std::vector<std::size_t>> taps;
   std::vector<int> slow;
   EnergyStableReach::Terms terms;  // has room for those of any link then
   for (const EnergyStableRef& ref : members.links) {
@@ -61,8 +61,7 @@ void EnergyStableRuns<Real>::addLinks(const scene::Scene& scene,
       on_places.push_back(
           {links.size(), reach_.placesOf(ref), {kNowhere, kNowhere, kNowhere, kNowhere}});
     }
-    const std::vector<std::size_t> ends = reach_.tapsAt(ref);
-    taps.insert(taps.end(), ends.begin(), ends.end());
+    taps.push_back(reach_.tapsAt(ref));
     if (run.slow_section >= 0 && (slow.empty() || slow.back() != run.slow_section)) {
       slow.push_back(run.slow_section);
     }
@@ -71,8 +70,6 @@ void EnergyStableRuns<Real>::addLinks(const scene::Scene& scene,
         {run.dimensions, terms.terms, {}, scene::sticks(run.law), run.share, mayWait(scene, ref)});
     std::copy_n(terms.offset, 3, links.back().offset);
   }
-  std::sort(taps.begin(), taps.end());
-  taps.erase(std::unique(taps.begin(), taps.end()), taps.end());
   const std::string name = "energy_stable" + std::to_string(links_.size());
   NearLinks<Real> near(links);
   const std::size_t states_at =
@@ -121,15 +118,17 @@ std::vector<int> EnergyStableRuns<Real>::reachedBy(const Group& group) const {
   return reached;
 }
 
-/// \pre forces of everything else are on the modules
+/// \pre forces of everything else are on the modules, and the near links are found
 template <class Real>
 void EnergyStableRuns<Real>::lookAhead(std::size_t g,
                                        const CoefficientsOf<Real>& c,
                                        const State<Real>& state) noexcept {
-  for (const std::size_t t : links_[g].taps) {
-    for (int k = 0; k < layout_.taps[t].dimensions; ++k) {
-      ahead_[at(layout_.taps[t].slot + k)] =
-          points_.taps().stepAhead(t, k, c.masses, state.x(), state.d(), state.f());
+  for (const std::size_t l : links_[g].near) {
+    for (const std::size_t t : links_[g].taps[l]) {
+      for (int k = 0; k < layout_.taps[t].dimensions; ++k) {
+        ahead_[at(layout_.taps[t].slot + k)] =
+            points_.taps().stepAhead(t, k, c.masses, state.x(), state.d(), state.f());
+      }
     }
   }
 }
@@ -297,8 +296,8 @@ ERGOTIC_REALTIME void EnergyStableRuns<Real>::step(const Group& group,
     any = true;
     tanks_.exert(g, c, state);
     followPlaces(g, state);
-    lookAhead(g, c, state);
     links_[g].near.find(state.x(), state.d(), clearances(g, state));
+    lookAhead(g, c, state);
     markIdle(g, state);
     const std::int64_t began = last + 1 - members_[g].divisor;
     markDue(g, began);

@@ -66,10 +66,10 @@ class EnergyStableRuns {
     EnergyStableLinks<Real> links;
     NearLinks<Real> near;
     std::vector<OnPlaces> on_places;
-    std::vector<std::size_t> taps;    // that they reach as modules
-    std::vector<unsigned char> idle;  // [links]
-    std::vector<int> slow;            // sections that are stepped more slowly
-    std::vector<unsigned char> due;   // [sections] of these, that moved as the present step began
+    std::vector<std::vector<std::size_t>> taps;  // [links] that each reaches as a module
+    std::vector<unsigned char> idle;             // [links]
+    std::vector<int> slow;                       // sections that are stepped more slowly
+    std::vector<unsigned char> due;  // [sections] of these, that moved as the present step began
     std::size_t states_at;
     std::size_t clearances_at;
     EnergyStableReach::Terms terms;  // of one of those on places

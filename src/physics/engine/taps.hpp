@@ -33,13 +33,20 @@ class Taps {
       Real position = static_cast<Real>(k == 0 ? tap.offset : 0.0);
       Real velocity(0);
       forEachSpan(t, k, [&](const Real* weights, int first, int count) noexcept {
-        kernels::ModalArguments<Real> modules{};
-        modules.weights = weights;
-        modules.count = count;
-        modules.x = x + first;
-        modules.d = d + first;
-        Real sums[2];
-        kernels_.gather(modules, sums);
+        Real sums[2] = {Real(0), Real(0)};
+        if (count < kShort) {
+          for (int i = 0; i < count; ++i) {
+            sums[0] += weights[i] * x[first + i];
+            sums[1] += weights[i] * d[first + i];
+          }
+        } else {
+          kernels::ModalArguments<Real> modules{};
+          modules.weights = weights;
+          modules.count = count;
+          modules.x = x + first;
+          modules.d = d + first;
+          kernels_.gather(modules, sums);
+        }
         position += sums[0];
         velocity += sums[1];
       });
@@ -79,6 +86,9 @@ class Taps {
   }
 
  private:
+  /// Sums of fewer modules have no lanes, and are taken here, in the order of the kernels.
+  static constexpr int kShort = 16;
+
   /// Calls `visit(weights, slot of the first, count)` for modules that lie side by side.
   template <class Visit>
   void forEachSpan(std::size_t t, int coordinate, const Visit& visit) const noexcept {

@@ -3,12 +3,14 @@
 
 #include <algorithm>
 #include <map>
+#include <optional>
 #include <set>
 #include <string>
 #include <tuple>
 
 #include "at.hpp"
 #include "ergotic/exception.hpp"
+#include "ergotic/scene/grid.hpp"
 #include "physics/layout/link_spans.hpp"
 #include "scene/laws/bend_parts.hpp"
 #include "scene/pressers.hpp"
@@ -280,9 +282,49 @@ int guideOf(const scene::Scene& scene,
   return layout.slot_of_mat[at(way.guide)] + way.axis * layout.strideOf(scene, way.guide);
 }
 
+/// Whether a place on a scalar body is led by nothing: it is a weighted sum that stays, then.
+bool isFixed(const scene::Scene& scene, const scene::Connection& connection) {
+  const auto stays = [](const scene::Connection::Way& way) {
+    return way.guide < 0 && way.at.parameter < 0 && way.at.audio < 0;
+  };
+  const scene::Section& section = scene.sectionOf(scene.mats[at(connection.mat)]);
+  return section.geometry == scene::Geometry::kScalar && stays(connection.along) &&
+         stays(connection.across);
+}
+
+/// The tap that a fixed place is; nothing if it lies on points.
+std::optional<scene::Tap> fixedTapOf(const scene::Scene& scene,
+                                     const scene::Connection& connection) {
+  const auto fraction = [](const scene::Connection::Way& way) {
+    return std::clamp(way.at.factor, way.minimum, way.maximum);
+  };
+  const scene::GridPlace around = scene::placeOn(
+      scene.grids[at(connection.grid)], fraction(connection.along), fraction(connection.across));
+  scene::Tap tap;
+  tap.mat = connection.mat;
+  for (std::size_t i = 0; i < at(around.count); ++i) {
+    const scene::Mat& there = scene.mats[at(around.mats[i])];
+    if (there.type == scene::MatType::kPoint) {
+      return std::nullopt;
+    }
+    tap.shares.push_back({around.mats[i], around.weights[i]});
+    tap.offset += around.weights[i] * (there.rest.x() - scene.mats[at(tap.mat)].rest.x());
+  }
+  return tap;
+}
+
 void placeConnections(const scene::Scene& scene, const Rates& rates, Layout& layout) {
   for (int k = 0; k < static_cast<int>(scene.connections.size()); ++k) {
     const scene::Connection& connection = scene.connections[at(k)];
+    if (isFixed(scene, connection)) {
+      if (const auto tap = fixedTapOf(scene, connection)) {
+        TapPoint point = tapOf(scene, *tap, layout);
+        point.slot = addSlots(layout, point.dimensions, tap->mat);
+        layout.slot_of_mat[at(tap->mat)] = point.slot;
+        layout.taps.push_back(std::move(point));
+        continue;
+      }
+    }
     PlacePoint point;
     point.section = scene.mats[at(scene.grids[at(connection.grid)].first)].section;
     const SectionRange& range = layout.sections[at(point.section)];

@@ -125,7 +125,7 @@ TEST(NearLinksTest, FindsAllThatCouldCloseAndLittleElse) {
   constexpr int kOthers = 640;
   std::mt19937 random(1);
   NearLinks<float> near(starOf(kOthers));
-  ASSERT_EQ(near.waiting(), 20U);
+  ASSERT_EQ(near.waiting(), 32U);
   std::vector<float> clearances(near.waiting(), 0.0F);
   std::vector<float> x(kOthers + 1);
   std::vector<float> d(kOthers + 1);
@@ -161,14 +161,33 @@ TEST(NearLinksTest, FindsAllThatCouldCloseAndLittleElse) {
   EXPECT_EQ(near.end() - near.begin(), kOthers);
 }
 
-TEST(NearLinksTest, LooksAtFewLinksAlways) {
+TEST(NearLinksTest, AFewWaitEachByItself) {
   std::vector<EnergyStableLink> links = starOf(200);
   for (std::size_t l = 0; l < links.size(); ++l) {
     links[l].may_wait = l < 63;
   }
-  EXPECT_EQ(NearLinks<double>(links).waiting(), 0U);
+  EXPECT_EQ(NearLinks<double>(links).waiting(), 63U);
   links[100].may_wait = true;
-  EXPECT_EQ(NearLinks<double>(links).waiting(), 3U);
+  EXPECT_EQ(NearLinks<double>(links).waiting(), 33U) << "two a tile";
+}
+
+/// A module that moves far away makes nobody look at contacts that it has no part in.
+TEST(NearLinksTest, AFewGoByTheirOwnModules) {
+  NearLinks<float> near(starOf(8));
+  std::vector<float> clearances(near.waiting(), 0.0F);
+  std::vector<float> x{0.0F, 1e-3F, 2e-3F, 3e-3F, 4e-3F, 5e-3F, 6e-3F, 7e-3F, 8e-3F};
+  std::vector<float> d(x.size(), 0.0F);
+  const auto foundOf = [&] {
+    near.find(x.data(), d.data(), clearances.data());
+    return std::vector<std::size_t>(near.begin(), near.end());
+  };
+  EXPECT_EQ(foundOf().size(), 8U) << "nothing is known yet";
+  near.remember([&](std::size_t l) { return x[l + 1] - x[0]; }, clearances.data());
+  EXPECT_TRUE(foundOf().empty());
+  d[3] = -1e-3F;
+  EXPECT_EQ(foundOf(), std::vector<std::size_t>{2});
+  d[3] = std::nanf("");
+  EXPECT_EQ(foundOf(), std::vector<std::size_t>{2}) << "not a number";
 }
 
 }  // namespace

@@ -234,7 +234,7 @@ TEST(TechniquesTest, BowsBringAStringToItsPitch) {
              0.0033},
         Case{"{is: pressed_bow, as: b, in: {s: a, keys: k}, with: {string: s, at: 0.12, hairs: 3, "
              "width: 0.02}}",
-             0.0033}}) {
+             0.0032}}) {  // pressed more, three hairs rasp
     const scene::Scene scene = sceneIncluding("lib/bows.yaml", string + "use: [" + one.use + "]\n");
     EXPECT_TRUE(isCertified(scene)) << one.use;
     Player player(scene, kRates);

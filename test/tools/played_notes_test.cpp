@@ -89,7 +89,7 @@ TEST_P(MelodyTest, EachKeySoundsItsPitchAndEndsQuietly) {
     const double hz = melody.partial * 440.0 * std::exp2((melody.notes[i] - 69) / 12.0);
     const Line line = lineNear(sound, begin_s, 0.6 * melody.step_s, hz, 0.04);
     EXPECT_NEAR(cents(line.hz, hz), 0.0, melody.within_cents) << "note " << melody.notes[i];
-    EXPECT_GT(line.amplitude, 1e-3) << "note " << melody.notes[i];
+    EXPECT_GT(line.amplitude, 2e-4) << "note " << melody.notes[i];
   }
   // A finger that lets go of a string, a bow that is lifted: all quieter than the notes.
   const double last_s = kBeginS + static_cast<double>(melody.notes.size() - 1) * melody.step_s;
@@ -103,7 +103,7 @@ INSTANTIATE_TEST_SUITE_P(
     ::testing::Values(Melody{"violin_g", {55, 57, 60, 64, 67, 62}, 0.5, 0.45, 1, 10.0},
                       Melody{"violin_g", {55, 59, 62, 66, 67}, 0.5, 0.52, 1, 12.0},
                       Melody{"hurdy", {62, 64, 67, 71, 74}, 0.6, 0.55, 2, 16.0},
-                      Melody{"guitar", {64, 65, 67, 69, 72, 64, 59}, 0.5, 0.4, 2, 8.0},
+                      Melody{"guitar", {50, 53, 56, 58, 60, 62, 64, 67, 72}, 0.5, 0.4, 2, 10.0},
                       Melody{"saw", {64, 69, 76, 83}, 1.0, 0.9, 1, 12.0},
                       Melody{"sitar", {48, 50, 53, 49}, 0.8, 0.6, 1, 10.0},
                       Melody{"monochord", {48, 50, 53, 55, 36}, 0.8, 0.7, 1, 6.0},

@@ -77,6 +77,17 @@ TEST_F(HandsTest, InALegatoTheFingerStaysDownAndThePlaceGlides) {
   EXPECT_EQ(back.count(2), 0U);
 }
 
+TEST_F(HandsTest, ANoteThatBeginsAsTheLastOneEndsKeepsTheFingerDown) {
+  use(kViolin);
+  play(60, 127);
+  now_s_ += 1.0;
+  EXPECT_EQ(play(60, 0).at(2).target_m, 0.0);
+  const Stroke finger = play(61, 127).at(2);
+  EXPECT_EQ(finger.target_m, -0.018) << "it was to go up from there";
+  EXPECT_EQ(finger.glide_s, 0.0);
+  EXPECT_EQ(finger.after_s, 0.0);
+}
+
 TEST_F(HandsTest, ABowGoesOnToItsFartherEndAndThenTurns) {
   use(kViolin);
   play(60, 127);

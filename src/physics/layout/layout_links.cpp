@@ -295,11 +295,7 @@ bool isFixed(const scene::Scene& scene, const scene::Connection& connection) {
 /// The tap that a fixed place is; nothing if it lies on points.
 std::optional<scene::Tap> fixedTapOf(const scene::Scene& scene,
                                      const scene::Connection& connection) {
-  const auto fraction = [](const scene::Connection::Way& way) {
-    return std::clamp(way.at.factor, way.minimum, way.maximum);
-  };
-  const scene::GridPlace around = scene::placeOn(
-      scene.grids[at(connection.grid)], fraction(connection.along), fraction(connection.across));
+  const scene::GridPlace around = scene::placeOf(scene, connection);
   scene::Tap tap;
   tap.mat = connection.mat;
   for (std::size_t i = 0; i < at(around.count); ++i) {

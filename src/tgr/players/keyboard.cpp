@@ -148,7 +148,7 @@ double Keyboard::strike(
   const bool has_ends = move.release == Release::kReturns && move.legato == Legato::kLifts;
   const double way_m = has_ends ? move.toOf(key.number) - move.from_m
                                 : target_m - ways_.placeAt(key.hand, move.from_m, now_s_ + after_s);
-  if (way_m == 0.0 && !has_ends) {
+  if (way_m == 0.0 && ways_.toldOf(key.hand, move.from_m) == target_m) {
     return 0.0;
   }
   const double glide_s = glideOf(way_m, speed);

@@ -36,10 +36,12 @@ class HandsTest : public ::testing::Test {
     std::map<int, Stroke> last;
     for (const Stroke& stroke : keyboard_.note(note, velocity, now_s_)) {
       last[stroke.index] = stroke;
+      told_m_[stroke.index] = stroke.target_m;
     }
     return last;
   }
   Keyboard keyboard_;
+  std::map<int, double> told_m_;  // where each slice was sent last
   double now_s_ = 1.0;
 };
 
@@ -66,7 +68,7 @@ TEST_F(HandsTest, InALegatoTheFingerStaysDownAndThePlaceGlides) {
   play(60, 127);
   now_s_ += 2.0;
   const auto next = play(62, 127);
-  EXPECT_EQ(next.count(2), 0U) << "the finger is down";
+  EXPECT_EQ(next.at(2).target_m, -0.018) << "the finger is down, and stays there";
   EXPECT_EQ(next.at(3).target_m, 0.006);
   EXPECT_NEAR(next.at(3).glide_s, 1.875 * 0.005 / 1.0, 1e-12) << "from 1 mm";
   EXPECT_EQ(next.at(0).target_m, -0.02) << "the bow is at its end and turns";
@@ -84,22 +86,20 @@ TEST_F(HandsTest, ANoteThatBeginsAsTheLastOneEndsKeepsTheFingerDown) {
   EXPECT_EQ(play(60, 0).at(2).target_m, 0.0);
   const Stroke finger = play(61, 127).at(2);
   EXPECT_EQ(finger.target_m, -0.018) << "it was to go up from there";
-  EXPECT_EQ(finger.glide_s, 0.0);
   EXPECT_EQ(finger.after_s, 0.0);
 }
 
-TEST_F(HandsTest, ABowGoesOnToItsFartherEndAndThenTurns) {
+TEST_F(HandsTest, ABowTurnsWithANoteThatBeginsBeyondItsMiddle) {
   use(kViolin);
   play(60, 127);
   now_s_ += 2.0;
   EXPECT_EQ(play(61, 127).at(0).target_m, -0.02);
   now_s_ += 0.1;
-  EXPECT_EQ(play(62, 127).count(0), 0U) << "more than half of it is left";
-  now_s_ += 0.2;
-  const Stroke turned = play(60, 127).at(0);
-  EXPECT_EQ(turned.target_m, 0.02);
-  const double left = 0.04 - 0.1 * (0.3 - 0.03 + 0.03);  // where it is when it turns
-  EXPECT_NEAR(turned.after_s, 0.03 + (0.04 - left) / 0.1, 1e-9) << "at its speed";
+  const Stroke on = play(62, 1).at(0);
+  EXPECT_EQ(on.target_m, -0.02) << "more than half of it is left";
+  EXPECT_NEAR(on.after_s, 0.03 + 0.03 / 0.05, 1e-9) << "from 10 mm, at the speed of its own note";
+  now_s_ += 0.6;
+  EXPECT_EQ(play(60, 127).at(0).target_m, 0.02);
 }
 
 TEST_F(HandsTest, ABowThatIsLiftedBeginsAnewTowardsItsFartherEnd) {
@@ -145,10 +145,10 @@ TEST_F(HandsTest, AHandThatStrikesBesidesComesBackAtOnce) {
       "    legato: turns\n"
       "    with: [{slices: 1, to: 5 mm, strikes: true, after: 10 ms}]\n");
   const Strokes strokes = keyboard_.note(60, 100, now_s_);
-  ASSERT_EQ(strokes.size(), 4U) << "a line has two";
-  EXPECT_EQ(strokes[2].after_s, 0.01);
-  EXPECT_EQ(strokes[3].target_m, 0.0);
-  EXPECT_EQ(strokes[3].after_s, 0.01 + strokes[2].glide_s);
+  ASSERT_EQ(strokes.size(), 3U);
+  EXPECT_EQ(strokes[1].after_s, 0.01);
+  EXPECT_EQ(strokes[2].target_m, 0.0);
+  EXPECT_EQ(strokes[2].after_s, 0.01 + strokes[1].glide_s);
   EXPECT_TRUE(keyboard_.note(60, 0, now_s_ + 1.0).empty());
 }
 
@@ -161,25 +161,121 @@ TEST_F(HandsTest, APlectrumPlucksOnItsWayBackWithTheNextNote) {
   }
 }
 
-TEST_F(HandsTest, ACrankStopsWhereItIsAndGoesOnWithTheNextNote) {
+TEST_F(HandsTest, ACrankTurnsAtItsEndsStopsWhereItIsAndGoesOnWithTheNextNote) {
   use("keys:\n"
-      "  - {slices: 0, from: -28 mm, to: 28 mm, speed: 0.036, release: stops, legato: turns}\n");
-  play(60, 100);
-  now_s_ += 0.25;
-  const double there = 0.036 * 0.25;
+      "  - {slices: 0, from: -28 mm, to: 28 mm, speed: 0.028, release: stops, legato: turns}\n");
+  const Strokes begun = keyboard_.note(60, 100, now_s_);
+  ASSERT_EQ(begun.size(), 17U) << "there, and sixteen times to the other end";
+  EXPECT_EQ(begun[0].target_m, 0.028);
+  EXPECT_NEAR(begun[0].after_s, 1.0, 1e-12);
+  EXPECT_EQ(begun[1].target_m, -0.028);
+  EXPECT_NEAR(begun[1].after_s, 3.0, 1e-12);
+  now_s_ += 3.5;  // a quarter of its third way
   const Strokes stopped = keyboard_.note(60, 0, now_s_);
   ASSERT_EQ(stopped.size(), 2U);
-  EXPECT_NEAR(stopped[0].target_m, there, 1e-12);
-  EXPECT_NEAR(stopped[1].target_m, there + 0.036 * 0.01, 1e-12);
+  EXPECT_NEAR(stopped[0].target_m, -0.014, 1e-12);
+  EXPECT_NEAR(stopped[1].target_m, -0.014 + 0.028 * 0.01, 1e-12);
   EXPECT_EQ(stopped[1].after_s, 0.02);
   now_s_ += 10.0;
   EXPECT_TRUE(keyboard_.note(60, 0, now_s_).empty());
-  const Stroke on = play(62, 100).at(0);
-  EXPECT_EQ(on.target_m, -0.028);
-  EXPECT_NEAR(on.after_s, (0.028 + stopped[1].target_m) / 0.036, 1e-9);
+  const Strokes on = keyboard_.note(62, 100, now_s_);
+  EXPECT_EQ(on[0].target_m, 0.028);
+  EXPECT_NEAR(on[0].after_s, (0.028 - stopped[1].target_m) / 0.028, 1e-9);
   now_s_ += 0.1;
-  EXPECT_EQ(play(64, 100).count(0), 0U) << "it goes on for the next note";
-  EXPECT_EQ(play(64, 0).count(0), 0U) << "and when that ends, for the one before";
+  play(64, 100);
+  EXPECT_TRUE(play(64, 0).empty()) << "it goes on for the note before";
+  EXPECT_EQ(play(62, 0).size(), 1U);
+}
+
+TEST_F(HandsTest, AHandThatStrikesBesideOthersHangsNowhere) {
+  use("keys:\n"
+      "  - {notes: [57, 57], slices: 0, to: 26 mm, release: stays, legato: turns,\n"
+      "     with: [{slices: 1, to: 7 mm, strikes: true}]}\n"
+      "  - {notes: [58, 58], slices: 1, to: 6 mm}\n");
+  for (const auto& [first, second] : {std::pair(57, 58), std::pair(58, 57)}) {
+    play(first, 100);
+    play(second, 100);
+    now_s_ += 1.0;
+    play(58, 0);
+    play(57, 0);
+    EXPECT_EQ(told_m_[1], 0.0) << first << " first";
+    now_s_ += 1.0;
+  }
+}
+
+TEST_F(HandsTest, AWheelKeepsTheHandThatANoteHasPut) {
+  use("keys:\n"
+      "  - {notes: [60, 62], slices: 0, to: 10 mm, pressure_to: 12 mm,\n"
+      "     with: [{slices: 1, to: [1 mm, 4 mm, 6 mm], release: stays}]}\n"
+      "controllers:\n"
+      "  - {controller: 1, slices: 1, to: 8 mm}\n");
+  const auto send = [&](std::uint8_t status, std::uint8_t first, std::uint8_t second) {
+    const std::array<std::uint8_t, 3> bytes{status, first, second};
+    now_s_ += 1.0;
+    return keyboard_.play(bytes.data(), 3, now_s_).strokes;
+  };
+  send(0x90, 60, 100);
+  send(0x90, 61, 100);
+  send(0xb0, 1, 127);
+  for (const Stroke& stroke : send(0xa0, 61, 100)) {
+    EXPECT_EQ(stroke.index, 0) << "pressed";
+  }
+  for (const Stroke& stroke : send(0x80, 60, 0)) {
+    EXPECT_EQ(stroke.index, 0) << "the older note ends";
+  }
+  send(0xb0, 64, 127);
+  send(0x80, 61, 0);
+  EXPECT_TRUE(send(0xb0, 64, 120).empty()) << "a pedal that stays down";
+}
+
+TEST_F(HandsTest, TheBendGoesFromWhereANoteHasPutAHand) {
+  use("keys:\n"
+      "  - {notes: [60, 62], slices: 0, to: 10 mm,\n"
+      "     with: [{slices: 1, to: [0 mm, 12 mm, 20 mm], release: stays}]}\n"
+      "controllers:\n"
+      "  - {bend: true, slices: 1, from: -5 mm, to: 5 mm}\n");
+  const auto bent = [&](std::uint8_t low, std::uint8_t high) {
+    const std::array<std::uint8_t, 3> bytes{0xe0, low, high};
+    now_s_ += 1.0;
+    const Strokes strokes = keyboard_.play(bytes.data(), 3, now_s_).strokes;
+    return strokes.empty() ? std::nan("") : strokes.back().target_m;
+  };
+  EXPECT_EQ(bent(127, 127), 0.005) << "no note has put it anywhere";
+  play(61, 100);
+  EXPECT_NEAR(bent(127, 127), 0.017, 1e-12);
+  EXPECT_NEAR(bent(0, 64), 0.012, 1e-12);
+  play(62, 100);
+  EXPECT_NEAR(bent(0, 0), 0.015, 1e-12);
+  EXPECT_NEAR(bent(127, 127), 0.020, 1e-12) << "no farther than notes put it";
+}
+
+TEST_F(HandsTest, AShortNoteWithinAnotherLeavesNothingBehind) {
+  use("keys:\n"
+      "  - {notes: [60, 61], slices: 0, to: [5 mm, 9 mm], after: 0.2, legato: glides}\n");
+  play(60, 100);
+  now_s_ += 1.0;
+  play(61, 100);
+  now_s_ += 0.05;
+  const auto ended = play(61, 0);
+  EXPECT_EQ(ended.at(0).target_m, 0.005);
+  EXPECT_EQ(ended.at(0).after_s, 0.0) << "it never goes to 9 mm";
+}
+
+TEST_F(HandsTest, OfKeysThatAPedalKeptTheLastSaysWhatBecomesOfItsHand) {
+  use("keys:\n"
+      "  - {notes: [40, 40], slices: 0, to: 8 mm}\n"
+      "  - {notes: [50, 50], slices: 0, to: 12 mm, release: stays}\n");
+  const auto pedal = [&](std::uint8_t value) {
+    const std::array<std::uint8_t, 3> bytes{0xb0, 64, value};
+    return keyboard_.play(bytes.data(), 3, now_s_).strokes;
+  };
+  pedal(127);
+  for (const int note : {40, 50}) {
+    play(note, 100);
+    play(note, 0);
+  }
+  now_s_ += 1.0;
+  EXPECT_TRUE(pedal(0).empty()) << "it stays";
 }
 
 TEST_F(HandsTest, ANoteThatEndsBeforeAHandHasBegunTakesItBack) {
@@ -207,6 +303,8 @@ TEST_F(HandsTest, TheNoteOfAHandIsOneThatBeginsWithIt) {
   EXPECT_EQ(keyboard_.noteOf({"", 2}), 70);
   EXPECT_EQ(keyboard_.noteOf({"", 3}), 60);
   EXPECT_EQ(keyboard_.noteOf({"", 4}), std::nullopt);
+  use("keys:\n  - {notes: [60, 127], slices: 0, to: 8 mm}\n" + std::string(kViolin).substr(6));
+  EXPECT_EQ(keyboard_.noteOf({"", 0}), 60) << "of the first line";
 }
 
 TEST_F(HandsTest, TellsWhatIsWrongWithAHand) {
@@ -223,6 +321,7 @@ TEST_F(HandsTest, TellsWhatIsWrongWithAHand) {
   EXPECT_THAT(complaint("to: 1 mm, after: 2"), HasSubstr("0...1"));
   EXPECT_THAT(complaint("to: 1 mm, with: {slices: 1, to: 1 mm}"), HasSubstr("a list of maps"));
   EXPECT_THAT(complaint("to: 1 mm, with: [{slices: 1, to: 1 mm, notes: 60}]"), HasSubstr("notes"));
+  EXPECT_THAT(complaint("to: 1 mm, with: [{slices: [1, 0], to: 1 mm}]"), HasSubstr("already"));
   EXPECT_THAT(complaint("to: 1 mm, with: [{to: 1 mm}]"), HasSubstr("entry 1 of 'with'"));
 }
 

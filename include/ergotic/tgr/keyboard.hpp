@@ -50,8 +50,8 @@ class Keyboard {
   Played play(const GamepadMove& move, int pad, double now_s);
   /// A gamepad is gone: its notes end, and hands that its axes moved are let go of.
   Strokes unplug(int pad, double now_s);
-  /// The lowest note, as it is given to `note`, that moves a hand; one whose line begins with this
-  /// hand, if there is any.
+  /// The first note, as it is given to `note`, of the first line of the map that begins with this
+  /// hand, else of the first one that moves it.
   std::optional<int> noteOf(const HandWays::Hand& hand) const;
 
   /// Plays a note without a channel.
@@ -83,13 +83,17 @@ class Keyboard {
     std::int64_t order = 0;  // later notes have larger numbers
     double pressure = 0.0;
   };
-  /// What the notes that are down want of one hand.
+  /// What the notes that are down want of one hand; those that strike want nothing of it.
   struct Wish {
-    double depth = 0.0;     // of the key that is down most, 0...1; 0: all are up
-    double pressure = 0.0;  // the largest, of fingers
-    double to_m = 0.0;      // of the note that counts: of those that are down most, the last one
-    double from_m = 0.0;
-    std::optional<double> pressure_to_m;
+    std::optional<Key> key;  // of those that are down most, the last one; none: all are up
+    double depth = 0.0;      // how far it is down, 0...1
+    double pressure = 0.0;   // the largest, of fingers
+  };
+  /// Where a note has put a hand, and between which places notes of its line put it, m.
+  struct Placed {
+    double at_m = 0.0;
+    double least_m = 0.0;
+    double most_m = 0.0;
   };
   /// Expression values last received on a channel; a note that begins on it starts with these.
   struct Expression {
@@ -108,13 +112,14 @@ class Keyboard {
   std::vector<Key> keysOf(int note) const;
   double depthOf(const Down& down) const;
   Wish wishOf(const HandWays::Hand& hand) const;
-  double placeOf(const Key& key, const Wish& wish) const;
+  static double placeOf(const Wish& wish);
   double strike(const Key& key, double target_m, double speed, double after_s, Strokes& strokes);
   void press(const Key& key, double velocity, Strokes& strokes);
-  void turn(const Key& key, double speed, bool is_down, Strokes& strokes);
+  void turn(const Key& key, double speed, Strokes& strokes);
   void press(const Name& name, int velocity, Strokes& strokes);
   void release(const Name& name, Strokes& strokes);
   void goBack(const Key& key, Strokes& strokes);
+  void goOn(const Key& key, const Wish& before, Strokes& strokes);
   void settle(const Key& key, Strokes& strokes);
   void setPedal(int number, int value, Strokes& strokes);
   void catchKeys(bool is_down, Strokes& strokes);
@@ -127,7 +132,7 @@ class Keyboard {
   void setKeyPressure(int channel, int note, int value, Played& played);
   void setControl(const Control& control, int channel, double share, Played& played);
   void express(const Control& control, std::optional<int> channel, double share, Played& played);
-  void settleAll(int note, Strokes& strokes);
+  void followPressure(int note, Strokes& strokes);
   void moveFor(const Note& note, const Control& control, double share, Played& played);
   void moveByMap(const Control& control, double share, Played& played);
   void move(const Motion& motion,
@@ -151,6 +156,7 @@ class Keyboard {
   bool sostenuto_ = false;
   std::int64_t pressed_ = 0;  // notes so far
   std::map<Name, Down> down_;
+  std::map<HandWays::Hand, Placed> placed_;  // hands that stay where notes have put them
   std::map<int, Pad> pads_;
   std::map<Name, int> key_pressures_;         // those above 0
   std::array<Expression, 16> expressions_{};  // [channels]

@@ -135,6 +135,21 @@ void EnergyStableReach::findWholeTaps(const scene::Scene& scene,
   }
 }
 
+bool EnergyStableReach::mayBeLed(const EnergyStableRef& ref) const {
+  const LinkEnds& ends = layout_.runs[ref.run].ends[ref.link];
+  const auto isLed = [this](int slot) {
+    for (const std::vector<Proxy>& proxies : layout_.proxies) {
+      for (const Proxy& proxy : proxies) {
+        if (proxy.slot == slot) {
+          slot = proxy.of;
+        }
+      }
+    }
+    return place_of_slot_[at(behind(slot))] >= 0;
+  };
+  return isLed(ends.a) || isLed(ends.b);
+}
+
 std::array<int, 2> EnergyStableReach::placesOf(const EnergyStableRef& ref) const noexcept {
   const LinkEnds& ends = layout_.runs[ref.run].ends[ref.link];
   return {place_of_slot_[at(behind(ends.a))], place_of_slot_[at(behind(ends.b))]};
@@ -210,6 +225,7 @@ void EnergyStableReach::reachEnd(int slot,
     const TapPoint& point = layout_.taps[at(tap)];
     forEachShare(point,
                  [&](int module, double weight) { add(module, point.stride, weight, false); });
+    Eigen::Map<Eigen::Vector3d>(to.offset) += point.offset * map.col(0);
   } else {
     add(slot, stride, 1.0, tap >= 0);
   }

@@ -37,6 +37,9 @@ class EnergyStableReach {
     const std::array<int, 2> places = placesOf(ref);
     return places[0] >= 0 || places[1] >= 0;
   }
+  /// True if an end lies on a place that may move, or stands for one that is held in another group.
+  /// Realtime: no
+  bool mayBeLed(const EnergyStableRef& ref) const;
   /// Taps among the ends that count as one module. Realtime: no
   std::vector<std::size_t> tapsAt(const EnergyStableRef& ref) const;
   /// Slots of all modules that a place can come to. Realtime: no

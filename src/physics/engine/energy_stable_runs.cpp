@@ -39,7 +39,7 @@ bool EnergyStableRuns<Real>::mayWait(const scene::Scene& scene, const EnergyStab
   const auto isThis = [&](const Follower& follower) {
     return follower.run >= 0 && at(follower.run) == ref.run && at(follower.index) == ref.link;
   };
-  return scene::lawOf(run.law).kind == scene::Law::Kind::kGap && !reach_.isOnPlace(ref) &&
+  return scene::lawOf(run.law).kind == scene::Law::Kind::kGap && !reach_.mayBeLed(ref) &&
          isAwake(run.section_a) && isAwake(run.section_b) &&
          std::none_of(layout_.followers.begin(), layout_.followers.end(), isThis);
 }
@@ -232,7 +232,7 @@ bool EnergyStableRuns<Real>::remembersForce(const EnergyStableRef& ref,
     return is_any;
   };
   return isAny(memory.elastic) || isAny(memory.viscous) || isAny(memory.mean) ||
-         isAny(memory.last_mean);
+         isAny(memory.last_mean) || isAny(memory.mean_viscous) || isAny(memory.last_mean_viscous);
 }
 
 /// How far apart the ends of contacts are that have no force, and have told a slower end so.

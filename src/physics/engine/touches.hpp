@@ -35,7 +35,9 @@ class Touches {
       : scene_(scene), written_(static_cast<int>(written)), rates_(rates), layout_(layout) {
     for (const std::vector<TapPoint>* taps : {&layout.taps, &layout.seen_taps}) {
       for (const TapPoint& tap : *taps) {
-        taps_.emplace_back(tap.mat, &tap);
+        if (!tap.is_place) {
+          taps_.emplace_back(tap.mat, &tap);
+        }
       }
     }
     std::sort(taps_.begin(), taps_.end());

@@ -166,8 +166,11 @@ void keepFromPulling(EnergyStableMotion<Real>& m, const EnergyStableState<Real>&
 /// have taken up more, as a finger does that glides along a bowed string; that given back within a
 /// step would be a blow.
 template <class Real>
-Real mostLeft(const EnergyStableMotion<Real>& m, const EnergyStableLaw<Real>& law) noexcept {
-  const Real last = m.p + std::abs(m.coasting) / Real(2);
+Real mostLeft(const EnergyStableMotion<Real>& m,
+              const EnergyStableLaw<Real>& law,
+              const EnergyStableState<Real>& state) noexcept {
+  // Where a place glides, the motion alone does not tell how deep it was.
+  const Real last = std::max(state.p, m.p + std::abs(m.coasting) / Real(2));
   const bool was_closed = last > Real(0) && law.hasPush() && m.own_give > Real(0);
   if (!was_closed || !(law.damping > Real(0)) ||
       m.own_give * law.push(last).slope > Real(kShortContact)) {
@@ -182,7 +185,7 @@ template <class Real>
 void release(EnergyStableMotion<Real>& m,
              const EnergyStableLaw<Real>& law,
              EnergyStableState<Real>& state) noexcept {
-  lose(std::max(Real(0), state.tank - mostLeft(m, law)), state);
+  lose(std::max(Real(0), state.tank - mostLeft(m, law, state)), state);
   m.empties = m.opening > Real(0);
   m.force = m.empties ? largestForce(state.tank, m.opening, m.give) : Real(0);
   if (law.form->is_lossy && state.phase == Real(0)) {
@@ -311,6 +314,7 @@ void payWork(EnergyStableMotion<Real>& m, EnergyStableState<Real>& state) noexce
   state.force = m.force;
   state.damper = m.damper;
   state.foreseen = m.foreseen;
+  state.p = m.p;
   std::copy_n(m.gradient, 3, state.gradient);
 }
 

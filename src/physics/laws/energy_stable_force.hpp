@@ -25,12 +25,13 @@ struct EnergyStableState {
   Real force = Real(0);     ///< F of the last step, elastic
   Real damper = Real(0);    ///< of the last step, damping or friction
   Real foreseen = Real(0);  ///< how far what forces do not move was to open it
+  Real p = Real(0);         ///< compression or elongation at the last step, m
   Real gradient[3] = {Real(0), Real(0), Real(0)};  ///< of the last step
   /// 1 once an impact has turned around, or while what may stick slips; of what lets go as its law
   /// says.
   Real phase = Real(0);
 
-  static constexpr std::size_t kDoubles = sizeof(Real) == sizeof(double) ? 12 : 4;
+  static constexpr std::size_t kDoubles = sizeof(Real) == sizeof(double) ? 13 : 4;
 };
 
 /// Inputs and results of an energy-stable link in one step. The link opens while p falls. Letters

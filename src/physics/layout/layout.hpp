@@ -96,7 +96,8 @@ struct TapPoint {
     int count = 0;
   };
   int mat = 0;
-  int slot = -1;  ///< -1: nothing but the picture asks where it is
+  int slot = -1;          ///< -1: nothing but the picture asks where it is
+  bool is_place = false;  ///< of a scene's place that stays, not one of its taps
   int dimensions = 1;
   int section = 0;
   int stride = 0;       ///< of the modules

@@ -316,6 +316,7 @@ void placeConnections(const scene::Scene& scene, const Rates& rates, Layout& lay
       if (const auto tap = fixedTapOf(scene, connection)) {
         TapPoint point = tapOf(scene, *tap, layout);
         point.slot = addSlots(layout, point.dimensions, tap->mat);
+        point.is_place = true;
         layout.slot_of_mat[at(tap->mat)] = point.slot;
         layout.taps.push_back(std::move(point));
         continue;

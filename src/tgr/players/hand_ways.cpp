@@ -16,6 +16,13 @@ Stroke lineTo(const HandWays::Hand& hand, double target_m, double after_s) {
 }  // namespace
 
 double HandWays::Way::placeAt(double time_s) const {
+  if (turns > 0 && time_s > end_s) {
+    const double past = std::min((time_s - end_s) / turn_s, static_cast<double>(turns));
+    const double whole = std::floor(past);
+    const bool is_even = std::fmod(whole, 2.0) == 0.0;
+    const double begin_m = is_even ? to_m : other_m;
+    return begin_m + (past - whole) * ((is_even ? other_m : to_m) - begin_m);
+  }
   const double share =
       end_s > begin_s ? std::clamp((time_s - begin_s) / (end_s - begin_s), 0.0, 1.0) : 1.0;
   const double part =
@@ -42,7 +49,7 @@ void HandWays::glide(const Hand& hand,
                      Strokes& strokes) {
   const auto [way, is_new] = ways_.try_emplace(hand);
   Way& last = way->second;
-  const bool is_on_line = !is_new && !last.is_glide && last.begin_s < now_s && now_s < last.end_s;
+  const bool is_on_line = !is_new && !last.is_glide && last.begin_s < now_s && now_s < last.overS();
   if (is_on_line) {
     strokes.push_back(lineTo(hand, last.placeAt(now_s), 0.0));
   }
@@ -53,21 +60,32 @@ void HandWays::glide(const Hand& hand,
 }
 
 void HandWays::draw(const Hand& hand,
-                    double target_m,
-                    double rest_m,
+                    const Swing& swing,
                     double speed,
                     double after_s,
                     double now_s,
                     Strokes& strokes) {
   const double begin_s = now_s + after_s;
-  const double from_m = placeAt(hand, rest_m, begin_s);
-  const double way_s = std::min(std::abs(target_m - from_m) / speed, HandMove::kMaxGlideS);
-  strokes.push_back(lineTo(hand, placeAt(hand, rest_m, now_s), 0.0));
-  if (after_s > 0.0) {
+  const double from_m = placeAt(hand, 0.0, begin_s);
+  const auto known = ways_.find(hand);
+  if (known != ways_.end() && now_s < known->second.overS()) {
+    strokes.push_back(lineTo(hand, known->second.placeAt(now_s), 0.0));
+  }
+  if (known != ways_.end() && after_s > 0.0) {
     strokes.push_back(lineTo(hand, from_m, after_s));
   }
-  strokes.push_back(lineTo(hand, target_m, after_s + way_s));
-  ways_[hand] = {begin_s, begin_s + way_s, from_m, target_m, false};
+  const auto secondsOf = [speed](double way_m) {
+    return std::min(std::abs(way_m) / speed, HandMove::kMaxGlideS);
+  };
+  Way way{begin_s, begin_s + secondsOf(swing.to_m - from_m), from_m, swing.to_m, false};
+  way.other_m = swing.other_m;
+  way.turn_s = secondsOf(swing.to_m - swing.other_m);
+  way.turns = way.turn_s > 0.0 ? swing.turns : 0;
+  for (int k = 0; k <= way.turns; ++k) {
+    strokes.push_back(
+        lineTo(hand, k % 2 == 0 ? swing.to_m : swing.other_m, way.end_s + k * way.turn_s - now_s));
+  }
+  ways_[hand] = way;
 }
 
 void HandWays::follow(const Hand& hand,
@@ -81,12 +99,12 @@ void HandWays::follow(const Hand& hand,
   if (is_new) {
     last = {now_s, now_s, rest_m, rest_m, false};
   }
-  if (last.to_m == target_m && !is_new) {
+  if (last.to_m == target_m && last.turns == 0 && !is_new) {
     return;
   }
   const double begin_s = std::max(now_s, last.is_glide ? last.end_s : last.begin_s);
   const double from_m = last.placeAt(begin_s);
-  if (last.is_glide || begin_s < last.end_s) {  // else it stands there
+  if (last.is_glide || begin_s < last.overS()) {  // else it stands there
     strokes.push_back(lineTo(hand, from_m, begin_s - now_s));
   }
   const double way_s = std::clamp(std::abs(target_m - from_m) / speed, kLagS, HandMove::kMaxGlideS);
@@ -96,7 +114,7 @@ void HandWays::follow(const Hand& hand,
 
 void HandWays::stop(const Hand& hand, double now_s, Strokes& strokes) {
   const auto found = ways_.find(hand);
-  if (found == ways_.end() || now_s >= found->second.end_s) {
+  if (found == ways_.end() || now_s >= found->second.overS()) {
     return;
   }
   Way& last = found->second;

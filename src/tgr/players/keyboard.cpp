@@ -14,6 +14,7 @@ namespace {
 
 constexpr double kFastestVelocity = 127.0;
 constexpr int kNoChannel = 16;
+constexpr int kLastNote = 127;
 constexpr double kSoftest = 2.0 / 3.0;  // of the velocity, with the soft pedal down
 
 double speedOf(const KeyMove& move, double velocity) {
@@ -49,6 +50,7 @@ Strokes Keyboard::use(PlayMap map, double now_s) {
     }
   }
   map_ = std::move(map);
+  placed_.clear();
   for (auto& [number, pad] : pads_) {
     pad.axes.clear();
   }
@@ -61,6 +63,7 @@ Strokes Keyboard::use(PlayMap map, double now_s) {
 
 void Keyboard::forgetHands() {
   down_.clear();
+  placed_.clear();
   ways_.clear();
 }
 
@@ -85,17 +88,20 @@ std::vector<Keyboard::Key> Keyboard::keysOf(int note) const {
 }
 
 std::optional<int> Keyboard::noteOf(const HandWays::Hand& hand) const {
-  constexpr int kNotes = 128;
   std::optional<int> among_others;
-  for (int note = 0; note < kNotes; ++note) {
-    const std::vector<Key> keys = keysOf(note);
-    if (!keys.empty() && keys.front().hand == hand) {
-      return note;
-    }
-    const bool moves_it =
-        std::any_of(keys.begin(), keys.end(), [&hand](const Key& key) { return key.hand == hand; });
-    if (moves_it && !among_others) {
-      among_others = note;
+  for (const KeyLine& line : map_.keys) {
+    for (int sounding = line.first_note; sounding <= line.last_note; ++sounding) {
+      const int note = sounding - map_.transpose;
+      const std::vector<Key> keys = keysOf(note);
+      const auto found = std::find_if(keys.begin(), keys.end(),
+                                      [&hand](const Key& key) { return key.hand == hand; });
+      if (found == keys.end() || lineOf(note)->line != &line || note < 0 || note > kLastNote) {
+        continue;
+      }
+      if (found == keys.begin()) {
+        return note;
+      }
+      among_others = among_others.value_or(note);
     }
   }
   return among_others;
@@ -110,48 +116,48 @@ Keyboard::Wish Keyboard::wishOf(const HandWays::Hand& hand) const {
   std::int64_t last = -1;
   for (const auto& [name, down] : down_) {
     for (const Key& key : keysOf(name.second)) {
-      if (key.hand != hand) {
+      if (key.hand != hand || key.move->strikes) {
         continue;
       }
       wish.pressure = std::max(wish.pressure, down.is_held ? down.pressure : 0.0);
       const double depth = depthOf(down);
       if (depth > wish.depth || (depth == wish.depth && down.order > last)) {
         last = down.order;
+        wish.key = key;
         wish.depth = depth;
-        wish.to_m = key.move->toOf(key.number);
-        wish.from_m = key.move->from_m;
-        wish.pressure_to_m = key.move->pressure_to_m;
       }
     }
   }
   return wish;
 }
 
-double Keyboard::placeOf(const Key& key, const Wish& wish) const {
-  const bool returns = key.move->release == Release::kReturns;
-  if (wish.depth == 0.0) {
-    return returns ? key.move->from_m : ways_.toldOf(key.hand, key.move->from_m);
-  }
+/// \pre a note is down
+double Keyboard::placeOf(const Wish& wish) {
+  const KeyMove& move = *wish.key->move;
+  const double to_m = move.toOf(wish.key->number);
   if (wish.pressure > 0.0) {  // a finger is there, so that it is down
-    return wish.to_m + wish.pressure * (wish.pressure_to_m.value_or(wish.to_m) - wish.to_m);
+    return to_m + wish.pressure * (move.pressure_to_m.value_or(to_m) - to_m);
   }
-  return wish.depth == 1.0 || !returns ? wish.to_m
-                                       : wish.from_m + wish.depth * (wish.to_m - wish.from_m);
+  const bool is_down = wish.depth == 1.0 || move.release != Release::kReturns;
+  return is_down ? to_m : move.from_m + wish.depth * (to_m - move.from_m);
 }
 
 /// Strikes a key: the hand glides for the time that the whole way between the two ends takes; one
-/// that need not begin at its rest, for as long as its own way takes.
+/// that need not begin at its rest, for as long as its own way takes. One that is there, as far as
+/// is known, is sent there again: somebody else may have moved it.
 /// \return for how long, s
 double Keyboard::strike(
     const Key& key, double target_m, double speed, double after_s, Strokes& strokes) {
   const KeyMove& move = *key.move;
+  const double whole_m = move.toOf(key.number) - move.from_m;
   const bool has_ends = move.release == Release::kReturns && move.legato == Legato::kLifts;
-  const double way_m = has_ends ? move.toOf(key.number) - move.from_m
-                                : target_m - ways_.placeAt(key.hand, move.from_m, now_s_ + after_s);
-  if (way_m == 0.0 && ways_.toldOf(key.hand, move.from_m) == target_m) {
-    return 0.0;
+  double way_m =
+      has_ends ? whole_m : target_m - ways_.placeAt(key.hand, move.from_m, now_s_ + after_s);
+  if (target_m == move.from_m && !move.strikes) {
+    way_m = ways_.toldOf(key.hand, move.from_m) - move.from_m;
   }
-  const double glide_s = glideOf(way_m, speed);
+  way_m = way_m == 0.0 ? whole_m : way_m;
+  const double glide_s = way_m == 0.0 ? HandWays::kLagS : glideOf(way_m, speed);
   ways_.glide(key.hand, target_m, move.from_m, glide_s, after_s, now_s_, strokes);
   return glide_s;
 }
@@ -194,27 +200,32 @@ void Keyboard::press(const Key& key, double velocity, Strokes& strokes) {
     strike(key, move.from_m, move.back, after_s + there_s, strokes);
     return;
   }
-  const bool is_down = wishOf(key.hand).depth > 0.0;
   if (move.legato == Legato::kTurns) {
-    return turn(key, speed, is_down, strokes);
+    return turn(key, speed, strokes);
   }
-  if (move.legato == Legato::kLifts && is_down) {
+  if (move.legato == Legato::kLifts && wishOf(key.hand).key) {
     after_s = std::max(after_s, strike(key, move.from_m, move.fastest, 0.0, strokes));
   }
   strike(key, to_m, speed, after_s, strokes);
+  if (move.release == Release::kStays) {
+    const auto [least, most] = std::minmax_element(move.to_m.begin(), move.to_m.end());
+    placed_[key.hand] = {to_m, *least, *most};
+  }
 }
 
-/// Draws a hand to the farther end of its way; one that is going there for another note goes on.
-/// One that has not moved yet is at 0.
-void Keyboard::turn(const Key& key, double speed, bool is_down, Strokes& strokes) {
+/// Draws a hand to the farther end of its way; one that stops with its key turns there, and goes to
+/// and fro as long as that is held. One that has not moved yet is at 0.
+void Keyboard::turn(const Key& key, double speed, Strokes& strokes) {
+  constexpr int kManyTurns = 16;
   const KeyMove& move = *key.move;
   const double to_m = move.toOf(key.number);
   const double place_m = ways_.placeAt(key.hand, 0.0, now_s_ + move.after_s);
   const bool goes_back = std::abs(place_m - to_m) < std::abs(place_m - move.from_m);
-  const double target_m = goes_back ? move.from_m : to_m;
-  if (!is_down || target_m != ways_.toldOf(key.hand, 0.0)) {
-    ways_.draw(key.hand, target_m, 0.0, speed, move.after_s, now_s_, strokes);
-  }
+  HandWays::Swing swing;
+  swing.to_m = goes_back ? move.from_m : to_m;
+  swing.other_m = goes_back ? to_m : move.from_m;
+  swing.turns = move.release == Release::kStops ? kManyTurns : 0;
+  ways_.draw(key.hand, swing, speed, move.after_s, now_s_, strokes);
 }
 
 void Keyboard::release(const Name& name, Strokes& strokes) {
@@ -222,52 +233,75 @@ void Keyboard::release(const Name& name, Strokes& strokes) {
   if (found == down_.end()) {
     return;
   }
+  const std::vector<Key> keys = keysOf(name.second);
+  std::vector<Wish> before;
+  for (const Key& key : keys) {
+    before.push_back(wishOf(key.hand));
+  }
   Down& down = found->second;
   down.is_held = false;
   down.pressure = 0.0;
   if (depthOf(down) == 0.0) {
     down_.erase(found);
   }
-  for (const Key& key : keysOf(name.second)) {
-    goBack(key, strokes);
+  for (std::size_t i = 0; i < keys.size(); ++i) {
+    if (wishOf(keys[i].hand).key) {
+      goOn(keys[i], before[i], strokes);
+    } else {
+      goBack(keys[i], strokes);
+    }
   }
 }
 
-/// Returns a key as far as its other notes and the pedals permit.
+/// A key that nothing keeps down.
 void Keyboard::goBack(const Key& key, Strokes& strokes) {
-  if (key.move->strikes) {
+  const KeyMove& move = *key.move;
+  if (move.strikes || move.release == Release::kStays) {
     return;
   }
-  const Wish wish = wishOf(key.hand);
-  if (wish.depth == 0.0 && key.move->release == Release::kStops) {
+  if (move.release == Release::kStops) {
     return ways_.stop(key.hand, now_s_, strokes);
   }
-  if (wish.depth > 0.0 && key.move->legato == Legato::kTurns) {
-    return;  // it goes on for the other note
+  const double way_m = ways_.toldOf(key.hand, move.from_m) - move.from_m;
+  if (way_m != 0.0) {
+    ways_.glide(key.hand, move.from_m, move.from_m, glideOf(way_m, move.back), 0.0, now_s_,
+                strokes);
   }
-  const double place_m = placeOf(key, wish);
-  const double told_m = ways_.toldOf(key.hand, key.move->from_m);
-  if (place_m == told_m) {
+}
+
+/// A hand that other notes, or pedals, keep where they want it.
+void Keyboard::goOn(const Key& key, const Wish& before, Strokes& strokes) {
+  const Wish wish = wishOf(key.hand);
+  const KeyMove& move = *wish.key->move;
+  const double place_m = placeOf(wish);
+  if (key.move->strikes || move.legato == Legato::kTurns ||
+      (before.key && place_m == placeOf(before))) {
     return;
   }
-  if (wish.depth == 1.0) {
-    return settle(key, strokes);
+  if (move.legato == Legato::kGlides) {
+    strike(*wish.key, place_m, move.fastest, 0.0, strokes);
+  } else if (wish.depth == 1.0) {
+    settle(*wish.key, strokes);
+  } else {
+    const double way_m = place_m - ways_.toldOf(key.hand, move.from_m);
+    ways_.glide(key.hand, place_m, move.from_m, glideOf(way_m, move.back), 0.0, now_s_, strokes);
   }
-  ways_.glide(key.hand, place_m, key.move->from_m, glideOf(place_m - told_m, key.move->back), 0.0,
-              now_s_, strokes);
 }
 
 /// Follows a pedal, or a finger that presses more or less.
 void Keyboard::settle(const Key& key, Strokes& strokes) {
-  if (!key.move->strikes && key.move->legato != Legato::kTurns) {
-    ways_.follow(key.hand, placeOf(key, wishOf(key.hand)), key.move->from_m, key.move->back, now_s_,
-                 strokes);
+  const KeyMove& move = *key.move;
+  const bool follows = move.release == Release::kReturns || move.pressure_to_m;
+  if (!move.strikes && move.legato != Legato::kTurns && follows) {
+    ways_.follow(key.hand, placeOf(wishOf(key.hand)), move.from_m, move.back, now_s_, strokes);
   }
 }
 
-void Keyboard::settleAll(int note, Strokes& strokes) {
+void Keyboard::followPressure(int note, Strokes& strokes) {
   for (const Key& key : keysOf(note)) {
-    settle(key, strokes);
+    if (key.move->pressure_to_m) {
+      settle(key, strokes);
+    }
   }
 }
 
@@ -305,19 +339,23 @@ void Keyboard::catchKeys(bool is_down, Strokes& strokes) {
 
 /// Keys that no finger holds are as far down as pedals keep them.
 void Keyboard::settleKept(Strokes& strokes) {
-  std::map<HandWays::Hand, Key> kept;
+  std::map<HandWays::Hand, std::pair<std::int64_t, Key>> kept;  // the last key of each hand
   for (auto next = down_.begin(); next != down_.end();) {
     const auto [name, down] = *next;
     for (const Key& key : down.is_held ? std::vector<Key>() : keysOf(name.second)) {
-      kept.emplace(key.hand, key);
+      const auto [known, is_new] = kept.try_emplace(key.hand, down.order, key);
+      if (!key.move->strikes &&
+          (down.order > known->second.first || known->second.second.move->strikes)) {
+        known->second = {down.order, key};
+      }
     }
     next = depthOf(down) == 0.0 ? down_.erase(next) : std::next(next);
   }
-  for (const auto& [hand, key] : kept) {
-    if (wishOf(hand).depth == 0.0) {
-      goBack(key, strokes);
+  for (const auto& [hand, last] : kept) {
+    if (wishOf(hand).key) {
+      settle(last.second, strokes);
     } else {
-      settle(key, strokes);
+      goBack(last.second, strokes);
     }
   }
 }

@@ -99,7 +99,7 @@ void Keyboard::playNote(const Name& name, int velocity, Played& played) {
   press(name, velocity, played.strokes);
   if (const auto down = down_.find(name); down != down_.end()) {
     down->second.pressure = now.pressure;
-    settleAll(name.second, played.strokes);
+    followPressure(name.second, played.strokes);
   }
 }
 
@@ -141,7 +141,7 @@ void Keyboard::setKeyPressure(int channel, int note, int value, Played& played) 
   }
   if (const auto down = down_.find(name); down != down_.end() && down->second.is_held) {
     down->second.pressure = value / kMax;
-    settleAll(note, played.strokes);
+    followPressure(note, played.strokes);
   }
   if (!zones_.isMember(channel)) {
     int most = 0;
@@ -177,7 +177,7 @@ void Keyboard::express(const Control& control,
     }
     if (control == kPressureControl) {
       down.pressure = share;
-      settleAll(name.second, played.strokes);
+      followPressure(name.second, played.strokes);
     } else {
       moveFor(*lineOf(name.second), control, share, played);
     }
@@ -226,8 +226,16 @@ void Keyboard::move(const Motion& motion,
   const std::size_t first = number ? *number % count : 0;
   const std::size_t end = number ? first + 1 : count;
   for (std::size_t i = first; i < end; ++i) {
-    ways_.follow({motion.end_effector, motion.indices[i]}, target_m, motion.from_m, motion.speed,
-                 now_s_, played.strokes);
+    const HandWays::Hand hand{motion.end_effector, motion.indices[i]};
+    const auto placed = placed_.find(hand);
+    double to_m = target_m;
+    if (is_bent && placed != placed_.end()) {  // from where a note has put it
+      const Placed& from = placed->second;
+      const auto [least, most] = std::minmax(motion.from_m, motion.to_m);
+      to_m = std::clamp(from.at_m + 0.5 * share * (motion.to_m - motion.from_m),
+                        std::min(least, from.least_m), std::max(most, from.most_m));
+    }
+    ways_.follow(hand, to_m, motion.from_m, motion.speed, now_s_, played.strokes);
   }
 }
 

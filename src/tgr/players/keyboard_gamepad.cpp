@@ -60,7 +60,9 @@ void Keyboard::useUsualGamepad() {
     motion.end_effector = hands[i].first;
     motion.indices = {hands[i].second};
     motion.to_m = moves[i]->to_m.front();
-    motion.from_m = withinReach(2.0 * moves[i]->from_m - motion.to_m, hands[i].first.empty());
+    motion.from_m = moves[i]->legato == Legato::kTurns
+                        ? moves[i]->from_m
+                        : withinReach(2.0 * moves[i]->from_m - motion.to_m, hands[i].first.empty());
     map_.controls.push_back({axisControl(static_cast<int>(axis)), motion});
   }
 }

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
 #include <optional>
 #include <string>
 #include <utility>
@@ -136,6 +137,23 @@ void forEachOf(const scene::SceneBuilder& builder,
   }
 }
 
+/// A note can send a hand to one place only, and coordinates of one end-effector move together.
+void refuseTwice(const YamlMap& map, const std::vector<KeyMove>& moves, const KeyMove& other) {
+  for (const KeyMove& move : moves) {
+    const bool is_tool = !move.end_effector.empty() && move.end_effector == other.end_effector;
+    const bool is_slice =
+        move.end_effector.empty() && other.end_effector.empty() &&
+        std::any_of(move.indices.begin(), move.indices.end(), [&other](int index) {
+          return std::count(other.indices.begin(), other.indices.end(), index) > 0;
+        });
+    if (is_tool || is_slice) {
+      const char* const key = is_tool ? "end_effector" : "slices";
+      map.fail(key, "'" + std::string(key) + "' of " + map.what() +
+                        " names what its line moves already, allowed: another");
+    }
+  }
+}
+
 KeyLine readKeys(const scene::SceneBuilder& builder, const YamlMap& map) {
   std::vector<std::string> keys = keysOfMoves();
   keys.insert(keys.begin(), {"notes", "with", "bend", "slide"});
@@ -154,7 +172,9 @@ KeyLine readKeys(const scene::SceneBuilder& builder, const YamlMap& map) {
   line.moves.push_back(readKeyMove(map, notes));
   forEachOf(builder, map, "with", [&](const YamlMap& other) {
     other.allow(keysOfMoves());
-    line.moves.push_back(readKeyMove(other, notes));
+    const KeyMove move = readKeyMove(other, notes);
+    refuseTwice(other, line.moves, move);
+    line.moves.push_back(move);
   });
   line.bend = readMotionUnder("bend", map);
   line.slide = readMotionUnder("slide", map);

@@ -207,9 +207,14 @@ std::map<int, std::set<double>> movedByNotes(const scene::Scene& scene) {
     return moved;
   }
   for (const tgr::KeyLine& line : tgr::readPlayMapFile(file).keys) {
+    const auto notes = static_cast<std::size_t>(line.last_note - line.first_note + 1);
     for (const tgr::KeyMove& move : line.moves) {
-      for (std::size_t i = 0; move.end_effector.empty() && i < move.indices.size(); ++i) {
-        moved[move.indices[i]].insert(move.to_m.begin(), move.to_m.end());
+      for (std::size_t i = 0; move.end_effector.empty() && i < notes; ++i) {
+        std::set<double>& places = moved[move.handOf(i).second];
+        places.insert(move.toOf(i));
+        if (move.legato == tgr::Legato::kTurns) {
+          places.insert(move.from_m);
+        }
       }
     }
   }

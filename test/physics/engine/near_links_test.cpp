@@ -5,13 +5,14 @@
 #include <cmath>
 #include <random>
 
+#include "ergotic/scene/text/read_scene.hpp"
 #include "support/physics.hpp"
 
 namespace ergotic::physics {
 namespace {
 
-/// What touches, and what it may touch: balls on springs, in a row. As many as are looked at each
-/// by itself; with others at a distance that nothing comes to, they are passed over in tiles.
+/// What touches, and what it may touch: balls on springs, in a row. Each waits by itself; with
+/// others at a distance that nothing comes to, they are passed over in tiles.
 class BallRow : public SceneBuilder {
  public:
   static constexpr int kBalls = 60;
@@ -108,6 +109,35 @@ TEST(NearLinksTest, WhatIsPassedOverChangesNoBit) {
   }
 }
 
+/// A place that a hand leads along a string at the gestural rate, past a ball at the audio rate: no
+/// module moves, and yet they meet.
+TEST(NearLinksTest, APlaceThatGlidesAtASlowerRateIsNeverFar) {
+  const scene::Scene scene = scene::readYaml(
+      "ergotic: 1\n"
+      "gestural_rate: 3150\n"
+      "sections: {play: {rate: audio, geometry: plane}, rail: {rate: gestural, geometry: plane},\n"
+      "           keys: {rate: gestural}}\n"
+      "generators: [{type: string, name: s, section: rail, masses: 5, mass: 1.0e-2,\n"
+      "              stiffness: 100, from: [0, 0], to: [0.1, 0]}]\n"
+      "mats:\n"
+      "  hand: {type: slice, section: keys}\n"
+      "  place: {type: point, along: s, at: 0, guide: {mat: hand, scale: 100}, speed: 20}\n"
+      "  ball: {type: mass, section: play, mass: 1.0e-3, at: [0.05, 0.002]}\n"
+      "lias: {touch: {type: contact, between: [place, ball], stiffness: 1000, threshold: 0.005,\n"
+      "               scheme: energy_stable}}\n"
+      "ports: {hand: {mat: hand, slice: 0}}\n",
+      "glides.yaml");
+  Player player(scene, kRates);
+  for (int n = 0; n < 1000; ++n) {
+    player.positions[0] = 0.01 * std::min(1.0, n / 600.0);
+    player.tick();
+  }
+  std::vector<TankReport> reports = player.instrument->makeTankReports();
+  player.instrument->readTanks(reports);
+  ASSERT_EQ(reports.size(), 1U);
+  EXPECT_GT(reports[0].active, 500) << "steps";
+}
+
 /// Links along one coordinate, from module 0 to all others.
 std::vector<EnergyStableLink> starOf(int others) {
   std::vector<EnergyStableLink> links;
@@ -121,14 +151,16 @@ std::vector<EnergyStableLink> starOf(int others) {
 }
 
 /// What is not found could not have closed by the next step.
-TEST(NearLinksTest, FindsAllThatCouldCloseAndLittleElse) {
-  constexpr int kOthers = 640;
+class NearLinksSearchTest : public ::testing::TestWithParam<int> {};
+
+TEST_P(NearLinksSearchTest, FindsAllThatCouldCloseAndLittleElse) {
+  const int kOthers = GetParam();  // as tiles of twenty, or each by itself
   std::mt19937 random(1);
   NearLinks<float> near(starOf(kOthers));
   ASSERT_EQ(near.waiting(), 32U);
   std::vector<float> clearances(near.waiting(), 0.0F);
-  std::vector<float> x(kOthers + 1);
-  std::vector<float> d(kOthers + 1);
+  std::vector<float> x(at(kOthers) + 1);
+  std::vector<float> d(at(kOthers) + 1);
   for (int i = 1; i <= kOthers; ++i) {
     x[at(i)] = static_cast<float>(1e-3 * i);
   }
@@ -154,12 +186,14 @@ TEST(NearLinksTest, FindsAllThatCouldCloseAndLittleElse) {
     found += static_cast<std::size_t>(near.end() - near.begin());
     near.remember([&](std::size_t l) { return std::max(0.0F, gapOf(l)); }, clearances.data());
   }
-  EXPECT_LT(found, 0.15 * kSteps * kOthers);
+  EXPECT_LT(found, (kOthers == 640 ? 0.15 : 0.3) * kSteps * kOthers);
   x[3] = std::nanf("");
   d[3] = x[3];
   near.find(x.data(), d.data(), clearances.data());
-  EXPECT_EQ(near.end() - near.begin(), kOthers);
+  EXPECT_GE(near.end() - near.begin(), kOthers == 640 ? kOthers : 1);
 }
+
+INSTANTIATE_TEST_SUITE_P(Tiles, NearLinksSearchTest, ::testing::Values(640, 32));
 
 TEST(NearLinksTest, AFewWaitEachByItself) {
   std::vector<EnergyStableLink> links = starOf(200);

@@ -52,10 +52,16 @@ class HandWays {
              double now_s,
              Strokes& strokes);
 
-  /// Goes there evenly, at a speed in m/s. \param rest_m, after_s  as for a glide
+  /// Where a hand goes evenly, and between which ends it goes to and fro after that.
+  struct Swing {
+    double to_m = 0.0;
+    double other_m = 0.0;
+    int turns = 0;
+  };
+  /// Goes there evenly, at a speed in m/s. A hand without a command is at 0.
+  /// \param after_s  as for a glide
   void draw(const Hand& hand,
-            double target_m,
-            double rest_m,
+            const Swing& swing,
             double speed,
             double after_s,
             double now_s,
@@ -86,7 +92,11 @@ class HandWays {
     double from_m = 0.0;
     double to_m = 0.0;
     bool is_glide = false;
+    double other_m = 0.0;  // after end_s it goes there and back again
+    int turns = 0;         // as often as that
+    double turn_s = 0.0;   // from end to end
     double placeAt(double time_s) const;
+    double overS() const { return end_s + turns * turn_s; }
   };
   std::map<Hand, Way> ways_;  // the newest of each
 };

@@ -23,7 +23,7 @@ struct FreeSlices::Parts {
   bool closes = false;
   bool are_fine = false;  ///< left out where much is attached
   bool areNone() const { return of_slices == 0.0 && of_others == 0.0; }
-  /// There are few of the first cases and many stable_links.
+  /// There are few of the first cases and many others.
   int mostMasses() const { return areNone() ? 100 : 50; }
   bool areEnds() const { return of_slices == 0.0 || of_slices == 1.0; }
 };

@@ -5,6 +5,7 @@
 #include <map>
 #include <string>
 
+#include "ergotic/tgr/driver.hpp"
 #include "ergotic/tgr/keyboard.hpp"
 #include "support/test.hpp"
 
@@ -185,6 +186,21 @@ TEST_F(HandsTest, ACrankTurnsAtItsEndsStopsWhereItIsAndGoesOnWithTheNextNote) {
   play(64, 100);
   EXPECT_TRUE(play(64, 0).empty()) << "it goes on for the note before";
   EXPECT_EQ(play(62, 0).size(), 1U);
+}
+
+TEST_F(HandsTest, ASlowCrankTurnsOnlyAsOftenAsADeviceCanWait) {
+  use("keys:\n  - {slices: 0, from: -28 mm, to: 28 mm, speed: 0.002, release: stops, legato: "
+      "turns}\n");
+  const Strokes strokes = keyboard_.note(60, 100, now_s_);
+  ASSERT_EQ(strokes.size(), 4U) << "14 s, and three times 28";
+  for (const Stroke& stroke : strokes) {
+    HandMove move;
+    move.target_m = stroke.target_m;
+    move.delay_s = stroke.after_s;
+    EXPECT_TRUE(move.isValid(1)) << stroke.after_s;
+  }
+  now_s_ += 110.0;
+  EXPECT_TRUE(keyboard_.note(60, 0, now_s_).empty()) << "it has ended";
 }
 
 TEST_F(HandsTest, AHandThatStrikesBesideOthersHangsNowhere) {

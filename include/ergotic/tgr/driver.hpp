@@ -41,6 +41,7 @@ constexpr double kMaxTargetM = 0.1;  ///< largest distance of a hand's target fr
 struct HandMove {
   static constexpr double kOnArrival = std::numeric_limits<double>::quiet_NaN();
   static constexpr double kMaxGlideS = 60.0;
+  static constexpr double kMaxDelayS = 120.0;
   static constexpr double kPeakOfMean = 1.875;  ///< peak speed of a glide over its mean speed
 
   int slice = 0;

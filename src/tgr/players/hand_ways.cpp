@@ -80,7 +80,10 @@ void HandWays::draw(const Hand& hand,
   Way way{begin_s, begin_s + secondsOf(swing.to_m - from_m), from_m, swing.to_m, false};
   way.other_m = swing.other_m;
   way.turn_s = secondsOf(swing.to_m - swing.other_m);
-  way.turns = way.turn_s > 0.0 ? swing.turns : 0;
+  if (way.turn_s > 0.0) {  // a slow hand turns less often: no command may wait for longer
+    const double left_s = HandMove::kMaxDelayS - (way.end_s - now_s);
+    way.turns = std::min(swing.turns, static_cast<int>(left_s / way.turn_s));
+  }
   for (int k = 0; k <= way.turns; ++k) {
     strokes.push_back(
         lineTo(hand, k % 2 == 0 ? swing.to_m : swing.other_m, way.end_s + k * way.turn_s - now_s));

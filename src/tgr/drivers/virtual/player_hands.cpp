@@ -10,7 +10,6 @@
 namespace ergotic::tgr {
 namespace {
 
-constexpr double kLongestDelayS = 120.0;
 constexpr double kShortestGlideS = 1e-3;
 constexpr double kPauseS = 0.1;      // an interval of that length is a pause, no rhythm
 constexpr double kClockJumpS = 0.1;  // between stamps and arrivals: the source has begun anew
@@ -21,7 +20,7 @@ constexpr double kMarginS = 5e-4;
 
 ERGOTIC_REALTIME bool HandMove::isValid(int slices) const noexcept {
   const bool is_time = !std::isinf(time_s) && timeout_s >= 0.0 &&  // NaN is neither
-                       delay_s >= 0.0 && delay_s <= kLongestDelayS && glide_s >= 0.0 &&
+                       delay_s >= 0.0 && delay_s <= kMaxDelayS && glide_s >= 0.0 &&
                        glide_s <= kMaxGlideS;
   return slice >= 0 && slice < slices && source < kMaxHandSources && is_time &&
          (lets_go || std::abs(target_m) <= kMaxTargetM);

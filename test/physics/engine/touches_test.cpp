@@ -142,6 +142,21 @@ TEST(TouchesTest, PlacesOfBodiesThatArePlayedByTheirModesAreHeldToo) {
   EXPECT_NEAR(player.heard[0].back(), force * weights[0] / stiffness[0], 1e-12);
 }
 
+TEST(TouchesTest, PlacesOfStringsAreNotHeldWhetherTheyMoveOrStay) {
+  for (const bool moves : {false, true}) {
+    SceneBuilder b;
+    const int first = b.chain(5, 1e-3, 100.0);
+    const int place = b.point(b.grid(first, 7), 0.4);
+    if (moves) {
+      b.scene.connections.back().along.guide = b.slice(0);
+    }
+    b.spring(place, b.ground(), 10.0);
+    const Player player(b.scene, kRates);
+    EXPECT_TRUE(player.instrument->canTouch(first + 2));
+    EXPECT_FALSE(player.instrument->canTouch(place)) << moves;
+  }
+}
+
 TEST(TouchesTest, BodiesThatArePlayedByTheirModesAreHeldAnywhereOnTheirOutline) {
   const scene::Scene scene = scene::readYaml(
       "ergotic: 1\nsections: {a: {}}\ngenerators:\n"

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Three instruments without a device, by mouse, keys and MIDI: each a take that is what was heard, bit for bit."""
+"""Four instruments without a device, by mouse, keys and MIDI: each a take that is what was heard, bit for bit."""
 import os
 import subprocess
 import time
@@ -112,6 +112,30 @@ class PlayedTest(Pointer, DeskTest):
                 subprocess.run(["import", "-window", "root", f"{os.environ['PICTURES']}/marimba12.png"], check=True)
             time.sleep(0.5)
         self.check_take("marimba12", play)
+
+    def test_4_violin_by_a_click_and_by_one_key_a_note(self):
+        self.load("violin_g")
+        bow = next(name for name in self.handles.message.names if "bow" in name)
+        x, y = self.touched(bow)
+        xdotool("mousemove", x, y, "sleep", 0.2)
+        self.check_take("violin_click", lambda: xdotool("click", 1, "sleep", 1.0))
+        keyboard = MidiKeyboard("violinist")
+        self.addCleanup(keyboard.close)
+        self.assertTrue(until(keyboard.is_connected), "it is not connected by itself")
+
+        def play():
+            last = None
+            for note in (55, 57, 59, 60, 62, 67, 62):  # slurred
+                keyboard.send(0x90, note, 100)
+                time.sleep(0.05)
+                if last:
+                    keyboard.send(0x80, last, 64)
+                time.sleep(0.4)
+                last = note
+            time.sleep(1.5)  # the bow turns at its end
+            keyboard.send(0x80, last, 64)
+            time.sleep(0.5)
+        self.check_take("violin", play)
 
 
 if __name__ == "__main__":

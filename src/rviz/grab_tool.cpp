@@ -50,7 +50,8 @@ constexpr std::size_t kFirm = 1;  // of kGrips
 
 constexpr const char* kHelp =
     "Click what lights up under the mouse, or drag it. Wheel: nearer, farther. Shift: finer. Right "
-    "button: let go. Keys Z to / and Q to P play notes.";
+    "button: let go. Keys Z to / and Q to P play notes; Page Up and Down: their octave, Space: "
+    "sustain pedal.";
 
 std::int64_t wallNs() {
   return std::chrono::duration_cast<std::chrono::nanoseconds>(
@@ -203,17 +204,30 @@ bool GrabTool::eventFilter(QObject* /*watched*/, QEvent* event) {
 bool GrabTool::playKey(const QKeyEvent& key, bool is_press) {
   const std::uint32_t code = key.nativeScanCode();
   const bool is_command = (key.modifiers() & (Qt::ControlModifier | Qt::AltModifier)) != 0;
-  if (!noteOfKey(code) || (is_press && is_command)) {
+  const bool is_pedal = key.key() == Qt::Key_Space;
+  const int octaves = (key.key() == Qt::Key_PageUp) - (key.key() == Qt::Key_PageDown);
+  if ((!noteOfKey(code) && !is_pedal && octaves == 0) || (is_press && is_command)) {
     return false;
   }
   if (key.isAutoRepeat()) {
     return true;
   }
-  if (const auto note = is_press ? keys_.press(code) : keys_.release(code)) {
+  if (is_pedal) {
+    endNotes(keys_.setPedal(is_press));
+  } else if (is_press && octaves != 0) {
+    keys_.shift(octaves);
+    setStatus(QString("Key Z plays C%1 now, key Q the C above it.").arg(keys_.lowest() / 12 - 1));
+  } else if (const auto note = is_press ? keys_.press(code) : keys_.release(code)) {
     const bool is_hard = (key.modifiers() & Qt::ShiftModifier) != 0;
     sendNote(*note, !is_press ? 0 : is_hard ? kHardVelocity : kVelocity);
   }
   return true;
+}
+
+void GrabTool::endNotes(const std::vector<int>& notes) {
+  for (const int note : notes) {
+    sendNote(note, 0);
+  }
 }
 
 void GrabTool::sendNote(int note, int velocity) {
@@ -546,9 +560,7 @@ void GrabTool::send() {
 }
 
 void GrabTool::letGo() {
-  for (const int note : keys_.releaseAll()) {
-    sendNote(note, 0);
-  }
+  endNotes(keys_.releaseAll());
   drop();
 }
 

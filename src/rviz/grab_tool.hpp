@@ -35,9 +35,9 @@ namespace ergotic::panel {
 ///
 /// Left button: take and drag. Wheel, or the pressure of a tablet's pen: nearer, farther. Shift:
 /// ten times finer. Right button, or letting go of the left: let go. Two rows of the computer's
-/// keyboard play notes by the station's map of notes; Shift: harder. A window that loses the focus
-/// lets go, and so does the station when it does not hear of this tool for a second. Thread: of the
-/// window
+/// keyboard play notes by the station's map of notes; Shift: harder, Page Up and Down: the octave,
+/// Space: sustain pedal. A window that loses the focus lets go, and so does the station when it
+/// does not hear of this tool for a second. Thread: of the window
 class GrabTool : public rviz::Tool {
  public:
   GrabTool();
@@ -60,6 +60,7 @@ class GrabTool : public rviz::Tool {
 
   bool playKey(const QKeyEvent& key, bool is_press);
   void sendNote(int note, int velocity);
+  void endNotes(const std::vector<int>& notes);
   void tap(const Handle& handle, bool is_hard);
 
   std::optional<View> viewOf(const rviz::ViewportMouseEvent& event);

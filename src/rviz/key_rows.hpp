@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <algorithm>
 #include <cstdint>
 #include <optional>
-#include <utility>
 #include <vector>
 
 namespace ergotic::panel {
@@ -16,34 +14,35 @@ namespace ergotic::panel {
 /// \param scan_code  of X11 (evdev plus 8): the place of the key, whatever its letter is
 std::optional<int> noteOfKey(std::uint32_t scan_code);
 
-/// Notes that are held by keys of a computer keyboard. Thread: of the window
+/// Notes that are held by keys of a computer keyboard, or by its sustain pedal. Thread: of the
+/// window
 class KeyRows {
  public:
-  /// \return the note that begins, if it is one that is not down already
-  std::optional<int> press(std::uint32_t scan_code) {
-    const auto note = noteOfKey(scan_code);
-    if (!note || std::find(down_.begin(), down_.end(), *note) != down_.end()) {
-      return std::nullopt;
-    }
-    down_.push_back(*note);
-    return note;
-  }
-  /// \return the note that ends, if it was down
-  std::optional<int> release(std::uint32_t scan_code) {
-    const auto note = noteOfKey(scan_code);
-    const auto found = note ? std::find(down_.begin(), down_.end(), *note) : down_.end();
-    if (found == down_.end()) {
-      return std::nullopt;
-    }
-    down_.erase(found);
-    return note;
-  }
-  const std::vector<int>& down() const { return down_; }
-  /// \return all notes that were down
-  std::vector<int> releaseAll() { return std::exchange(down_, {}); }
+  /// \return the note that begins, if no key holds it already
+  std::optional<int> press(std::uint32_t scan_code);
+  /// \return the note that ends, if the key held one and the pedal does not keep it
+  std::optional<int> release(std::uint32_t scan_code);
+  /// \return the notes that end as the pedal comes up
+  std::vector<int> setPedal(bool is_down);
+  /// Moves both rows, within four octaves to either side; notes that are held stay.
+  void shift(int octaves);
+  /// The note of Z.
+  int lowest() const;
+  /// All that are held.
+  std::vector<int> down() const;
+  /// \return all notes that were held. The pedal is up then.
+  std::vector<int> releaseAll();
 
  private:
-  std::vector<int> down_;
+  struct Held {
+    std::uint32_t scan_code;
+    int note;
+    bool is_pressed;  // else the pedal keeps it
+  };
+
+  std::vector<Held> held_;
+  bool is_pedal_down_ = false;
+  int octave_ = 0;
 };
 
 }  // namespace ergotic::panel

@@ -139,6 +139,12 @@ class PlayingTest(Pointer, DeskTest):
         self.assertTrue(until(lambda: self.notes.message.note == 60 and self.notes.message.velocity == 0),
                         "a key that comes up ends its note")
         self.assertTrue(until(lambda: gesture.positions and max(gesture.positions) > 0.0055), "the hammer was not thrown")
+        with self.subTest("another octave, and a pedal"):
+            xdotool("key", "Page_Down", "keydown", "space", "key", "q")
+            self.assertTrue(until(lambda: self.notes.message.note == 48 and self.notes.message.velocity == Note.HELD),
+                            "a note whose key is released under the pedal is repeated")
+            xdotool("keyup", "space", "key", "Page_Up")
+            self.assertTrue(until(lambda: self.notes.message.velocity == 0))
         with self.subTest("a window that loses the focus releases the keys that are down"):
             xdotool("keydown", "w", "sleep", 0.3)
             self.assertTrue(until(lambda: self.notes.message.note == 62 and self.notes.message.velocity > 0))

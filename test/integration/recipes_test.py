@@ -6,6 +6,7 @@ import json
 import pathlib
 import re
 import shutil
+import struct
 import subprocess
 import sys
 import tempfile
@@ -80,8 +81,8 @@ class RecipesTest(unittest.TestCase):
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
         return done.stdout
 
-    def play(self, name, seconds, gesture=None):
-        arguments = [f"{name}.yaml", "--seconds", str(seconds), "--out", "out.wav"]
+    def play(self, name, seconds, gesture=None, more=()):
+        arguments = [f"{name}.yaml", "--seconds", str(seconds), "--out", "out.wav", *more]
         if gesture:
             (self.folder / "gesture.csv").write_text(gesture)
             arguments += ["--gesture", "gesture.csv"]
@@ -111,6 +112,19 @@ class RecipesTest(unittest.TestCase):
         left, right = self.play("first", 3, self.gestures["first"])
         self.expect(left, A2, 5, 0.8, 3)
         self.expect(right, A2, 5, 0.8, 3)
+
+    def test_the_first_map_plucks_there_and_back(self):
+        shown = re.findall(r"```yaml\n(keys:.*?)```", (ROOT / "docs/first_instrument.md").read_text(), re.DOTALL)
+        (self.folder / "map.yaml").write_text(shown[0])
+        track = b"".join(bytes([wait, *note]) for wait, note in (
+            (96, (0x90, 60, 100)), (10, (0x80, 60, 0)), (86, (0x90, 60, 100)), (10, (0x80, 60, 0)))) + b"\0\xff\x2f\0"
+        (self.folder / "two.mid").write_bytes(b"MThd" + struct.pack(">IHHH", 6, 0, 1, 96) +
+                                              b"MTrk" + struct.pack(">I", len(track)) + track)
+        sound = self.play("first", 1.9, more=("--midi", "two.mid", "--map", "map.yaml"))[0]
+        before, first, second = (numpy.abs(sound.samples[int(a * sound.rate):int((a + 0.3) * sound.rate)]).max()
+                                 for a in (0.2, 0.6, 1.1))  # notes begin at 0.5 and 1 s
+        self.assertLess(before, 1e-3 * first)
+        self.assertGreater(second, 1.2 * first)
 
     def test_the_first_key_reaches_its_string(self):
         told = (ROOT / "docs/first_instrument.md").read_text()

@@ -46,9 +46,9 @@ def tried(line):
             ') && eval "$meant" && roslaunch --nodes ergotic station.launch "${arguments[@]}"')
     if line.startswith("roslaunch ergotic "):
         return line.replace("roslaunch", "roslaunch --nodes", 1)
-    if line == "rosbag record -a":
-        return ("set -m; rosbag record -a & until ls *.active; do sleep 0.1; done; sleep 2; kill -INT %1; wait; "
-                "while ls *.active; do sleep 0.1; done; mv *.bag performance.bag")
+    if line == "rosbag record -a -O performance.bag":
+        return ("set -m; " + line + " & until ls *.active; do sleep 0.1; done; sleep 2; kill -INT %1; wait; "
+                "while ls *.active; do sleep 0.1; done")
     return line
 
 

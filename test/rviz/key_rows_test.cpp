@@ -43,5 +43,57 @@ TEST(KeyRowsTest, AllThatAreDownEndTogether) {
   EXPECT_TRUE(keys.releaseAll().empty());
 }
 
+TEST(KeyRowsTest, ThePedalKeepsNotesWhoseKeysAreReleased) {
+  KeyRows keys;
+  keys.press(24);
+  keys.press(25);
+  EXPECT_TRUE(keys.setPedal(true).empty());
+  EXPECT_EQ(keys.release(24), std::nullopt);
+  EXPECT_EQ(keys.down(), (std::vector<int>{60, 62}));
+  EXPECT_EQ(keys.press(24), 60) << "a note that only the pedal keeps begins again";
+  EXPECT_EQ(keys.release(24), std::nullopt);
+  EXPECT_EQ(keys.setPedal(false), std::vector<int>{60}) << "the key of 62 is still down";
+  EXPECT_EQ(keys.release(25), 62);
+}
+
+TEST(KeyRowsTest, APedalThatAllWasReleasedUnderIsUp) {
+  KeyRows keys;
+  keys.setPedal(true);
+  keys.releaseAll();
+  keys.press(24);
+  EXPECT_EQ(keys.release(24), 60);
+}
+
+TEST(KeyRowsTest, OctavesMoveBothRowsButNoNoteThatIsHeld) {
+  KeyRows keys;
+  keys.press(24);
+  keys.shift(-1);
+  EXPECT_EQ(keys.lowest(), 36);
+  EXPECT_EQ(keys.press(52), 36);
+  EXPECT_EQ(keys.press(25), 50);
+  EXPECT_EQ(keys.release(24), 60) << "as it began";
+  EXPECT_EQ(keys.down(), (std::vector<int>{36, 50}));
+}
+
+TEST(KeyRowsTest, OctavesStayWithinTheNotesOfMidi) {
+  KeyRows keys;
+  for (int i = 0; i < 9; ++i) {
+    keys.shift(-1);
+  }
+  EXPECT_EQ(keys.press(52), 0);
+  for (int i = 0; i < 20; ++i) {
+    keys.shift(1);
+  }
+  EXPECT_EQ(keys.press(33), 124);  // P
+}
+
+TEST(KeyRowsTest, OfTwoKeysOfOneNoteTheFirstCounts) {
+  KeyRows keys;
+  EXPECT_EQ(keys.press(59), 60);  // the comma
+  EXPECT_EQ(keys.press(24), std::nullopt);
+  EXPECT_EQ(keys.release(24), std::nullopt);
+  EXPECT_EQ(keys.release(59), 60);
+}
+
 }  // namespace
 }  // namespace ergotic::panel

@@ -29,7 +29,9 @@ def text_of(*path):
 def shown(document):
     """Command lines of a document, without what follows `#`; some go over several lines."""
     lines = []
-    for block in re.findall(r"^```(?:sh)?\n(.*?)^```$", text_of(document), re.DOTALL | re.MULTILINE):
+    for language, block in re.findall(r"^```(\w*)\n(.*?)^```$", text_of(document), re.DOTALL | re.MULTILINE):
+        if language not in ("", "sh"):
+            continue
         block = re.sub(r" +# .*", "", block).replace("\\\n", "")
         starts = r"^(?=roslaunch |rosservice |rostopic |rosrun |rosbag |scripts/station)"
         lines += [line.strip() for line in re.split(starts, block, flags=re.MULTILINE)

@@ -39,38 +39,52 @@ void PrintTo(const Melody& melody, std::ostream* out) {
 
 class MelodyTest : public ::testing::TestWithParam<Melody> {};
 
-MidiBytes songOf(const Melody& melody) {
-  MidiBytes song;
-  for (std::size_t i = 0; i < melody.notes.size(); ++i) {
-    const auto note = static_cast<std::uint8_t>(melody.notes[i]);
-    const double begin_s = kBeginS + static_cast<double>(i) * melody.step_s;
-    const auto pulse = [](double s) { return static_cast<std::uint32_t>(s * kPulsesPerS); };
-    song.add(1, pulse(begin_s), {0x90, note, 90});
-    song.add(1, pulse(begin_s + melody.held_s), {0x80, note, 0});
-  }
-  return song;
-}
+struct KeyStroke {
+  double begin_s;
+  double held_s;
+  int note;
+  int velocity;
+};
 
-/// The left channel, until half a second after the last note.
-Sound playedOf(const Melody& melody) {
-  const std::string file = repository("models/" + std::string(melody.name) + ".yaml");
+/// The left channel, for so long.
+Sound playedOf(const char* name, const std::vector<KeyStroke>& strokes, double seconds) {
+  MidiBytes song;
+  for (const KeyStroke& stroke : strokes) {
+    const auto note = static_cast<std::uint8_t>(stroke.note);
+    const auto velocity = static_cast<std::uint8_t>(stroke.velocity);
+    const auto pulse = [](double s) { return static_cast<std::uint32_t>(s * kPulsesPerS); };
+    song.add(1, pulse(stroke.begin_s), {0x90, note, velocity});
+    song.add(1, pulse(stroke.begin_s + stroke.held_s), {0x80, note, 0});
+  }
+  const std::string file = repository("models/" + std::string(name) + ".yaml");
   auto performer = station::makePerformer(scene::readYaml(textOf(file), file), kRates,
                                           physics::Precision::kFloat, {});
   SoundInputs inputs({}, performer->instrument->scene(), kRates.audio_hz);
-  const ScratchFile midi(songOf(melody).text());
+  const ScratchFile midi(song.text());
   const auto player =
       makeSongPlayer(std::move(performer), std::move(inputs), {}, readSong(midi.path()), "");
   const auto channels = static_cast<std::size_t>(player->outputChannels());
   std::vector<double> frames(static_cast<std::size_t>(kRates.ratio) * channels);
   Sound sound;
   sound.rate_hz = kRates.audio_hz;
-  const double seconds = kBeginS + static_cast<double>(melody.notes.size()) * melody.step_s + 0.5;
   for (double t = 0.0; t < seconds && player->next(frames.data()); t += 1.0 / kRates.gesturalHz()) {
     for (std::size_t i = 0; i < frames.size(); i += channels) {
       sound.samples.push_back(frames[i]);
     }
   }
   return sound;
+}
+
+/// Until half a second after the last note.
+Sound playedOf(const Melody& melody) {
+  constexpr int kVelocity = 90;
+  std::vector<KeyStroke> strokes;
+  double begin_s = kBeginS;
+  for (const int note : melody.notes) {
+    strokes.push_back({begin_s, melody.held_s, note, kVelocity});
+    begin_s += melody.step_s;
+  }
+  return playedOf(melody.name, strokes, begin_s + 0.5);
 }
 
 double loudest(const Sound& sound, double from_s, double to_s) {
@@ -108,6 +122,55 @@ INSTANTIATE_TEST_SUITE_P(
                       Melody{"sitar", {48, 50, 53, 49}, 0.8, 0.6, 1, 10.0},
                       Melody{"monochord", {48, 50, 53, 55, 36}, 0.8, 0.7, 1, 6.0},
                       Melody{"harmonics", {45, 57, 64, 69, 76}, 0.8, 0.5, 1, 6.0}));
+
+struct Played {
+  const char* name;
+  int note;
+};
+void PrintTo(const Played& played, std::ostream* out) {
+  *out << played.name;
+}
+
+class VelocityTest : public ::testing::TestWithParam<Played> {};
+
+TEST_P(VelocityTest, WhoPlaysHarderIsLouder) {
+  constexpr double kStepS = 1.5;
+  const auto [name, note] = GetParam();
+  const double medium_s = kBeginS + kStepS;
+  const double hard_s = medium_s + kStepS;
+  const double end_s = hard_s + kStepS;
+  const Sound sound = playedOf(
+      name, {{kBeginS, 0.3, note, 20}, {medium_s, 0.3, note, 64}, {hard_s, 0.3, note, 120}}, end_s);
+  const double soft = loudest(sound, kBeginS, medium_s);
+  const double medium = loudest(sound, medium_s, hard_s);
+  const double hard = loudest(sound, hard_s, end_s);
+  EXPECT_GT(soft, 3e-3);
+  EXPECT_GT(medium, 1.2 * soft);
+  EXPECT_GT(hard, 1.05 * medium);
+  EXPECT_GT(hard, 2.0 * soft);
+  EXPECT_LT(hard, 1.2) << "the limiter is for chords";
+}
+
+INSTANTIATE_TEST_SUITE_P(Instruments,
+                         VelocityTest,
+                         ::testing::Values(Played{"carillon", 60},
+                                           Played{"cimbalom", 60},
+                                           Played{"cymbal", 49},
+                                           Played{"drum", 60},
+                                           Played{"guitar", 40},
+                                           Played{"guitar", 64},
+                                           Played{"guitar", 67},
+                                           Played{"kalimba12", 60},
+                                           Played{"koto", 62},
+                                           Played{"marimba12", 48},
+                                           Played{"monochord", 60},
+                                           Played{"piano12", 60},
+                                           Played{"plate6", 60},
+                                           Played{"steelpan", 60},
+                                           Played{"string", 72},
+                                           Played{"tabla", 38},
+                                           Played{"tamtam", 60},
+                                           Played{"timpani", 48}));
 
 }  // namespace
 }  // namespace ergotic::tools

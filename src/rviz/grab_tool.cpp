@@ -48,10 +48,17 @@ constexpr std::uint32_t kQueue = 100;
 
 constexpr std::size_t kFirm = 1;  // of kGrips
 
-constexpr const char* kHelp =
-    "Click what lights up under the mouse, or drag it. Wheel: nearer, farther. Shift: finer. Right "
-    "button: let go. Keys Z to / and Q to P play notes; Page Up and Down: their octave, Space: "
-    "sustain pedal.";
+constexpr std::uint32_t kSpaceBar = 65;  // scan code
+
+/// \param lowest  the note of Z
+QString helpWith(int lowest) {
+  return QString(
+             "Click what lights up under the mouse, or drag it. Wheel: nearer, farther. Shift: "
+             "finer. Right button: let go. Keys from Z (C%1) and Q (C%2) on play notes; Page Up, "
+             "Page Down: their octave, Space: sustain pedal.")
+      .arg(lowest / 12 - 1)
+      .arg(lowest / 12);
+}
 
 std::int64_t wallNs() {
   return std::chrono::duration_cast<std::chrono::nanoseconds>(
@@ -165,7 +172,7 @@ void GrabTool::activate() {
   panel_ = context_->getViewManager()->getRenderPanel();
   panel_->installEventFilter(this);
   panel_->installEventFilter(&pen_);
-  setStatus(kHelp);
+  setStatus(helpWith(keys_.lowest()));
 }
 
 void GrabTool::deactivate() {
@@ -204,7 +211,7 @@ bool GrabTool::eventFilter(QObject* /*watched*/, QEvent* event) {
 bool GrabTool::playKey(const QKeyEvent& key, bool is_press) {
   const std::uint32_t code = key.nativeScanCode();
   const bool is_command = (key.modifiers() & (Qt::ControlModifier | Qt::AltModifier)) != 0;
-  const bool is_pedal = key.key() == Qt::Key_Space;
+  const bool is_pedal = code == kSpaceBar;
   const int octaves = (key.key() == Qt::Key_PageUp) - (key.key() == Qt::Key_PageDown);
   if ((!noteOfKey(code) && !is_pedal && octaves == 0) || (is_press && is_command)) {
     return false;
@@ -216,7 +223,7 @@ bool GrabTool::playKey(const QKeyEvent& key, bool is_press) {
     endNotes(keys_.setPedal(is_press));
   } else if (is_press && octaves != 0) {
     keys_.shift(octaves);
-    setStatus(QString("Key Z plays C%1 now, key Q the C above it.").arg(keys_.lowest() / 12 - 1));
+    setStatus(helpWith(keys_.lowest()));
   } else if (const auto note = is_press ? keys_.press(code) : keys_.release(code)) {
     const bool is_hard = (key.modifiers() & Qt::ShiftModifier) != 0;
     sendNote(*note, !is_press ? 0 : is_hard ? kHardVelocity : kVelocity);
@@ -490,8 +497,8 @@ int GrabTool::hover(rviz::ViewportMouseEvent& event) {
     camera->handleMouseEvent(event);
     setCursor(camera->getCursor());
   }
-  if (hovered_) {
-    setStatus(kHelp);  // the camera says what the mouse does where nothing lights up
+  if (hovered_) {  // the camera says what the mouse does where nothing lights up
+    setStatus(helpWith(keys_.lowest()));
   }
   return Render;
 }

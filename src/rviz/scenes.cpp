@@ -59,8 +59,10 @@ std::string notesOf(const std::filesystem::path& scene) {
   const std::filesystem::path map = scene.parent_path() / "maps" / scene.stem().concat(".yaml");
   const std::string comment = leadingComment(readWhole(map));
   const std::size_t colon = comment.find(": ");
-  return colon == std::string::npos ? ""
-                                    : " Notes (key Z is C3, Q is C4): " + comment.substr(colon + 2);
+  return colon == std::string::npos
+             ? ""
+             : " Notes (key Z is C3, Q is C4; Page Up, Page Down: an octave higher, lower): " +
+                   comment.substr(colon + 2);
 }
 
 bool isInstrument(const std::filesystem::path& scene) {

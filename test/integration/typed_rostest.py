@@ -29,7 +29,7 @@ def text_of(*path):
 def shown(document):
     """Command lines of a document, without what follows `#`; some go over several lines."""
     lines = []
-    for language, block in re.findall(r"^```(\w*)\n(.*?)^```$", text_of(document), re.DOTALL | re.MULTILINE):
+    for language, block in re.findall(r"^```([^\n]*)\n(.*?)^```$", text_of(document), re.DOTALL | re.MULTILINE):
         if language not in ("", "sh"):
             continue
         block = re.sub(r" +# .*", "", block).replace("\\\n", "")

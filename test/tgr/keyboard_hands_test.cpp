@@ -303,6 +303,31 @@ TEST_F(HandsTest, ANoteThatEndsBeforeAHandHasBegunTakesItBack) {
   EXPECT_LT(ended.at(0).after_s, 0.4) << "a hand drops what it was to do later";
 }
 
+TEST_F(HandsTest, AFingerStaysUntilThePlectrumHasPluckedHoweverShortTheNote) {
+  use("keys:\n"
+      "  - {notes: [60, 60], slices: 0, to: 26 mm, speed: 1, release: stays, legato: turns, after: "
+      "50 ms,\n"
+      "     with: [{slices: 1, to: -14 mm, speed: 1, back: 0.5, after: 20 ms, legato: glides}]}\n"
+      "  - {notes: [62, 62], slices: 2, to: 10 mm, speed: 1, back: 0.5, after: 20 ms}\n");
+  play(60, 127);
+  now_s_ += 0.01;
+  EXPECT_NEAR(play(60, 0).at(1).after_s, 0.05 + 0.026 - 0.01, 1e-9);
+  play(62, 127);
+  now_s_ += 0.01;
+  EXPECT_EQ(play(62, 0).at(2).after_s, 0.0) << "a hand by itself comes back at once";
+  now_s_ += 1.0;
+  play(60, 127);
+  now_s_ += 0.5;
+  EXPECT_EQ(play(60, 0).at(1).after_s, 0.0);
+}
+
+TEST_F(HandsTest, ASlowBowKeepsAShortNoteForAQuarterOfASecondAtMost) {
+  use(kViolin);
+  play(60, 1);
+  now_s_ += 0.05;
+  EXPECT_NEAR(play(60, 0).at(1).after_s, 0.2, 1e-9);
+}
+
 TEST_F(HandsTest, AnotherMapLetsGoOfHandsThatStay) {
   use(kViolin);
   play(60, 100);

@@ -82,6 +82,7 @@ class Keyboard {
     bool is_caught = false;  // by sostenuto
     std::int64_t order = 0;  // later notes have larger numbers
     double pressure = 0.0;
+    double least_s = 0.0;  // its hands stay until then, however short it is
   };
   /// What the notes that are down want of one hand; those that strike want nothing of it.
   struct Wish {
@@ -118,7 +119,8 @@ class Keyboard {
   void turn(const Key& key, double speed, Strokes& strokes);
   void press(const Name& name, int velocity, Strokes& strokes);
   void release(const Name& name, Strokes& strokes);
-  void goBack(const Key& key, Strokes& strokes);
+  double leastOf(const std::vector<Key>& keys) const;
+  void goBack(const Key& key, double after_s, Strokes& strokes);
   void goOn(const Key& key, const Wish& before, Strokes& strokes);
   void settle(const Key& key, Strokes& strokes);
   void setPedal(int number, int value, Strokes& strokes);

@@ -40,6 +40,11 @@ double HandWays::placeAt(const Hand& hand, double rest_m, double time_s) const {
   return found == ways_.end() ? rest_m : found->second.placeAt(time_s);
 }
 
+double HandWays::arrivalOf(const Hand& hand) const {
+  const auto found = ways_.find(hand);
+  return found == ways_.end() ? 0.0 : found->second.end_s;
+}
+
 void HandWays::glide(const Hand& hand,
                      double target_m,
                      double rest_m,

@@ -182,12 +182,28 @@ void Keyboard::press(const Name& name, int velocity, Strokes& strokes) {
   for (const Key& key : keys) {
     press(key, softened, strokes);
   }
+  down.least_s = leastOf(keys);
   const auto strikes = [](const Key& key) { return key.move->strikes; };
   if (!std::all_of(keys.begin(), keys.end(), strikes)) {
     Down& known = down_[name];
     down.is_caught = known.is_caught;
     known = down;
   }
+}
+
+/// Hands that begin one after the other need each other: a finger stays on its string until the
+/// plectrum has plucked it, however soon the key is released.
+double Keyboard::leastOf(const std::vector<Key>& keys) const {
+  constexpr double kMostS = 0.25;  // a bow may be drawn for longer
+  double least_s = 0.0;
+  bool is_staggered = false;
+  for (const Key& key : keys) {
+    is_staggered = is_staggered || key.move->after_s != keys.front().move->after_s;
+    if (key.move->release != Release::kStops) {
+      least_s = std::max(least_s, ways_.arrivalOf(key.hand));
+    }
+  }
+  return is_staggered ? std::min(least_s, now_s_ + kMostS) : 0.0;
 }
 
 void Keyboard::press(const Key& key, double velocity, Strokes& strokes) {
@@ -239,6 +255,7 @@ void Keyboard::release(const Name& name, Strokes& strokes) {
     before.push_back(wishOf(key.hand));
   }
   Down& down = found->second;
+  const double after_s = std::max(down.least_s - now_s_, 0.0);
   down.is_held = false;
   down.pressure = 0.0;
   if (depthOf(down) == 0.0) {
@@ -248,13 +265,13 @@ void Keyboard::release(const Name& name, Strokes& strokes) {
     if (wishOf(keys[i].hand).key) {
       goOn(keys[i], before[i], strokes);
     } else {
-      goBack(keys[i], strokes);
+      goBack(keys[i], after_s, strokes);
     }
   }
 }
 
 /// A key that nothing keeps down.
-void Keyboard::goBack(const Key& key, Strokes& strokes) {
+void Keyboard::goBack(const Key& key, double after_s, Strokes& strokes) {
   const KeyMove& move = *key.move;
   if (move.strikes || move.release == Release::kStays) {
     return;
@@ -264,7 +281,7 @@ void Keyboard::goBack(const Key& key, Strokes& strokes) {
   }
   const double way_m = ways_.toldOf(key.hand, move.from_m) - move.from_m;
   if (way_m != 0.0) {
-    ways_.glide(key.hand, move.from_m, move.from_m, glideOf(way_m, move.back), 0.0, now_s_,
+    ways_.glide(key.hand, move.from_m, move.from_m, glideOf(way_m, move.back), after_s, now_s_,
                 strokes);
   }
 }
@@ -355,7 +372,7 @@ void Keyboard::settleKept(Strokes& strokes) {
     if (wishOf(hand).key) {
       settle(last.second, strokes);
     } else {
-      goBack(last.second, strokes);
+      goBack(last.second, 0.0, strokes);
     }
   }
 }

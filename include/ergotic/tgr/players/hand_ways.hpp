@@ -42,6 +42,9 @@ class HandWays {
   /// \return where its commands have brought the hand by a time, or will have, m
   double placeAt(const Hand& hand, double rest_m, double time_s) const;
 
+  /// \return when its last command has brought a hand to its target; one without a command: 0
+  double arrivalOf(const Hand& hand) const;
+
   /// Goes there on a path of minimum jerk.
   /// \param rest_m  as `toldOf`. \param after_s  it begins so much later than now
   void glide(const Hand& hand,

@@ -21,6 +21,17 @@ Place placeOfMark(const YAML::Mark& mark) {
   return {std::max(mark.line, 0) + 1, std::max(mark.column, 0) + 1};
 }
 
+/// Of an error: where a text ends within an escape, yaml-cpp counts its end as one character more.
+Place placeOfMark(const YAML::Mark& mark, const std::string& text) {
+  Place place = placeOfMark(mark);
+  const auto lines = 1 + std::count(text.begin(), text.end(), '\n');
+  if (place.line >= lines) {
+    const std::size_t last = text.size() - (text.rfind('\n') + 1);  // npos + 1 is 0
+    place.column = std::min(place.column, static_cast<int>(last) + 1);
+  }
+  return place;
+}
+
 /// Grows documents as yaml-cpp reads them. Fails at one that is one too many: where one begins with
 /// a comma, yaml-cpp 0.7 goes on for ever with empty ones. Fails at a value that is one too many:
 /// each takes a hundred bytes, whatever it takes in the text. Fails at aliases: some lines of them
@@ -155,7 +166,7 @@ std::vector<Node> readDocuments(const SceneBuilder& builder,
   } catch (const YAML::DeepRecursion& e) {
     builder.fail(placeOfMark(e.mark), "nested too deeply, allowed: as deep as " + needs);
   } catch (const YAML::Exception& e) {
-    builder.fail(placeOfMark(e.mark), "not valid YAML: " + e.msg);
+    builder.fail(placeOfMark(e.mark, text), "not valid YAML: " + e.msg);
   }
 }
 

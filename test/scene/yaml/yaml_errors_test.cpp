@@ -34,6 +34,12 @@ TEST(YamlErrorsTest, NulByteIsRefusedAtItsPlace) {
               "ends only");
 }
 
+TEST(YamlErrorsTest, ATextThatEndsWithinAnEscapeIsRefusedAtItsEnd) {
+  for (const char* const text : {"a: [3,\"b\\<!>", "ergotic: 1\nname: \"b\\<!>"}) {
+    expectRefused({text, "not valid YAML"}, "bad.yaml");
+  }
+}
+
 TEST(YamlErrorsTest, DeepNestingIsAnErrorNotACrash) {
   for (const char* unit : {"[", "{a: ", "- ", "? "}) {
     std::string text = "ergotic: 1\nname: \n  ";

@@ -106,7 +106,7 @@ std::vector<int> KeyRows::down() const {
 }
 
 std::vector<int> KeyRows::releaseAll() {
-  const std::vector<int> notes = down();
+  std::vector<int> notes = down();
   held_.clear();
   is_pedal_down_ = false;
   return notes;

@@ -319,6 +319,16 @@ TEST_F(HandsTest, AFingerStaysUntilThePlectrumHasPluckedHoweverShortTheNote) {
   play(60, 127);
   now_s_ += 0.5;
   EXPECT_EQ(play(60, 0).at(1).after_s, 0.0);
+  now_s_ += 1.0;
+  const auto pedal = [&](std::uint8_t value) {
+    const std::array<std::uint8_t, 3> bytes{0xb0, 64, value};
+    return keyboard_.play(bytes.data(), 3, now_s_).strokes;
+  };
+  pedal(127);
+  play(60, 127);
+  play(60, 0);
+  now_s_ += 0.01;
+  EXPECT_NEAR(pedal(0).back().after_s, 0.05 + 0.026 - 0.01, 1e-9) << "a pedal that comes up";
 }
 
 TEST_F(HandsTest, ASlowBowKeepsAShortNoteForAQuarterOfASecondAtMost) {

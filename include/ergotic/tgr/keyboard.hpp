@@ -82,7 +82,6 @@ class Keyboard {
     bool is_caught = false;  // by sostenuto
     std::int64_t order = 0;  // later notes have larger numbers
     double pressure = 0.0;
-    double least_s = 0.0;  // its hands stay until then, however short it is
   };
   /// What the notes that are down want of one hand; those that strike want nothing of it.
   struct Wish {
@@ -119,8 +118,8 @@ class Keyboard {
   void turn(const Key& key, double speed, Strokes& strokes);
   void press(const Name& name, int velocity, Strokes& strokes);
   void release(const Name& name, Strokes& strokes);
-  double leastOf(const std::vector<Key>& keys) const;
-  void goBack(const Key& key, double after_s, Strokes& strokes);
+  void keepTogether(const std::vector<Key>& keys);
+  void goBack(const Key& key, Strokes& strokes);
   void goOn(const Key& key, const Wish& before, Strokes& strokes);
   void settle(const Key& key, Strokes& strokes);
   void setPedal(int number, int value, Strokes& strokes);
@@ -158,7 +157,8 @@ class Keyboard {
   bool sostenuto_ = false;
   std::int64_t pressed_ = 0;  // notes so far
   std::map<Name, Down> down_;
-  std::map<HandWays::Hand, Placed> placed_;  // hands that stay where notes have put them
+  std::map<HandWays::Hand, Placed> placed_;    // hands that stay where notes have put them
+  std::map<HandWays::Hand, double> needed_s_;  // until when other hands of their notes need them
   std::map<int, Pad> pads_;
   std::map<Name, int> key_pressures_;         // those above 0
   std::array<Expression, 16> expressions_{};  // [channels]

@@ -51,6 +51,7 @@ Strokes Keyboard::use(PlayMap map, double now_s) {
   }
   map_ = std::move(map);
   placed_.clear();
+  needed_s_.clear();
   for (auto& [number, pad] : pads_) {
     pad.axes.clear();
   }
@@ -64,6 +65,7 @@ Strokes Keyboard::use(PlayMap map, double now_s) {
 void Keyboard::forgetHands() {
   down_.clear();
   placed_.clear();
+  needed_s_.clear();
   ways_.clear();
 }
 
@@ -182,7 +184,7 @@ void Keyboard::press(const Name& name, int velocity, Strokes& strokes) {
   for (const Key& key : keys) {
     press(key, softened, strokes);
   }
-  down.least_s = leastOf(keys);
+  keepTogether(keys);
   const auto strikes = [](const Key& key) { return key.move->strikes; };
   if (!std::all_of(keys.begin(), keys.end(), strikes)) {
     Down& known = down_[name];
@@ -193,17 +195,19 @@ void Keyboard::press(const Name& name, int velocity, Strokes& strokes) {
 
 /// Hands that begin one after the other need each other: a finger stays on its string until the
 /// plectrum has plucked it, however soon the key is released.
-double Keyboard::leastOf(const std::vector<Key>& keys) const {
+void Keyboard::keepTogether(const std::vector<Key>& keys) {
   constexpr double kMostS = 0.25;  // a bow may be drawn for longer
-  double least_s = 0.0;
+  double last_s = now_s_;
   bool is_staggered = false;
   for (const Key& key : keys) {
     is_staggered = is_staggered || key.move->after_s != keys.front().move->after_s;
     if (key.move->release != Release::kStops) {
-      least_s = std::max(least_s, ways_.arrivalOf(key.hand));
+      last_s = std::max(last_s, ways_.arrivalOf(key.hand));
     }
   }
-  return is_staggered ? std::min(least_s, now_s_ + kMostS) : 0.0;
+  for (const Key& key : keys) {
+    needed_s_[key.hand] = is_staggered ? std::min(last_s, now_s_ + kMostS) : now_s_;
+  }
 }
 
 void Keyboard::press(const Key& key, double velocity, Strokes& strokes) {
@@ -255,7 +259,6 @@ void Keyboard::release(const Name& name, Strokes& strokes) {
     before.push_back(wishOf(key.hand));
   }
   Down& down = found->second;
-  const double after_s = std::max(down.least_s - now_s_, 0.0);
   down.is_held = false;
   down.pressure = 0.0;
   if (depthOf(down) == 0.0) {
@@ -265,13 +268,13 @@ void Keyboard::release(const Name& name, Strokes& strokes) {
     if (wishOf(keys[i].hand).key) {
       goOn(keys[i], before[i], strokes);
     } else {
-      goBack(keys[i], after_s, strokes);
+      goBack(keys[i], strokes);
     }
   }
 }
 
 /// A key that nothing keeps down.
-void Keyboard::goBack(const Key& key, double after_s, Strokes& strokes) {
+void Keyboard::goBack(const Key& key, Strokes& strokes) {
   const KeyMove& move = *key.move;
   if (move.strikes || move.release == Release::kStays) {
     return;
@@ -281,6 +284,7 @@ void Keyboard::goBack(const Key& key, double after_s, Strokes& strokes) {
   }
   const double way_m = ways_.toldOf(key.hand, move.from_m) - move.from_m;
   if (way_m != 0.0) {
+    const double after_s = std::max(needed_s_[key.hand] - now_s_, 0.0);
     ways_.glide(key.hand, move.from_m, move.from_m, glideOf(way_m, move.back), after_s, now_s_,
                 strokes);
   }
@@ -372,7 +376,7 @@ void Keyboard::settleKept(Strokes& strokes) {
     if (wishOf(hand).key) {
       settle(last.second, strokes);
     } else {
-      goBack(last.second, 0.0, strokes);
+      goBack(last.second, strokes);
     }
   }
 }

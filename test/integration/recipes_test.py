@@ -116,19 +116,24 @@ class RecipesTest(unittest.TestCase):
     def test_the_first_map_plucks_there_and_back(self):
         shown = re.findall(r"```yaml\n(keys:.*?)```", (ROOT / "docs/first_instrument.md").read_text(), re.DOTALL)
         (self.folder / "map.yaml").write_text(shown[0])
-        one, two = (self.play("first", 1.9, more=("--midi", self.song(notes), "--map", "map.yaml"))[0]
-                    for notes in (1, 2))
+        one, held, two = (self.play("first", 1.9, more=("--midi", self.song(*song), "--map", "map.yaml"))[0]
+                          for song in ((1, 20), (1, 250), (2, 20)))
+        self.assertEqual(numpy.count_nonzero(one.samples != held.samples), 0, "a key that is released is not heard")
         first = numpy.abs(one.samples[int(0.6 * one.rate):int(0.9 * one.rate)]).max()
         self.assertLess(numpy.abs(one.samples[:int(0.5 * one.rate)]).max(), 1e-3 * first)
         second = numpy.abs(two.samples - one.samples)[int(one.rate):].max()
         self.assertGreater(second, 0.5 * first)
 
-    def song(self, notes):
-        """Middle C, this often, from half a second on and half a second apart."""
-        track = bytes([96, 0x90, 60, 100, 10, 0x80, 60, 0]) + bytes([86, 0x90, 60, 100, 10, 0x80, 60, 0]) * (notes - 1)
+    def song(self, notes, held):
+        """Middle C, this often, from half a second on and half a second apart, each for so many 240ths of a second."""
+        wait = 120
+        track = b""
+        for _ in range(notes):
+            track += bytes([wait, 0x90, 60, 100, 0x80 | held >> 7, held & 0x7f, 0x80, 60, 0])
+            wait = 120 - held
         track += b"\0\xff\x2f\0"
-        path = self.folder / f"{notes}.mid"
-        path.write_bytes(b"MThd" + struct.pack(">IHHH", 6, 0, 1, 96) + b"MTrk" + struct.pack(">I", len(track)) + track)
+        path = self.folder / "song.mid"
+        path.write_bytes(b"MThd" + struct.pack(">IHHH", 6, 0, 1, 120) + b"MTrk" + struct.pack(">I", len(track)) + track)
         return str(path)
 
     def test_the_first_key_reaches_its_string(self):

@@ -147,7 +147,7 @@ void Station::cycle(const Timing& timing) noexcept {
   heartbeat_.fetch_add(1, std::memory_order_relaxed);
   const std::int64_t begin = rt::monotonicNs();
   followInterlock();
-  moveHands();
+  moveHands(0);
   Slices positions{};
   const std::uint32_t met = driver_->exchange(force_.data(), positions.data());
   const std::int64_t exchanged = rt::monotonicNs();
@@ -161,12 +161,13 @@ void Station::catchUp(std::int64_t ticks, std::int64_t stall_ns) noexcept {
     return;
   }
   heartbeat_.fetch_add(1, std::memory_order_relaxed);
-  moveHands();
+  const std::int64_t run = std::min(ticks, max_catch_up_);
+  driver_->skipTicks(run - 1);
+  moveHands(ticks - 1);
   force_.fill(0.0);
   Slices target{};
   const std::uint32_t met = driver_->exchange(force_.data(), target.data());
   const std::uint32_t flags = accept(target, met, ticks - 1) | GestureTick::kCatchUp;
-  const std::int64_t run = std::min(ticks, max_catch_up_);
   Event stalled = event(Event::Type::kStall);
   stalled.index = run;
   stalled.value = 1e-9 * static_cast<double>(stall_ns);
@@ -206,12 +207,13 @@ bool Station::move(const tgr::HandMove& move, double due_tick) noexcept {
   return move.isValid(slices_) && driver_->hasHand(move.slice) && moves_.push({move, due_tick});
 }
 
-/// A move that is due at a tick is so much later than this one, whenever it was asked for.
-void Station::moveHands() noexcept {
+/// A move that is due at a tick is so much later than the tick of this exchange, whenever it was
+/// asked for. \param missed  ticks before that one that are still to be caught up
+void Station::moveHands(std::int64_t missed) noexcept {
   DueMove due;
   for (std::size_t i = 0; i < kWaitingMoves && moves_.pop(due); ++i) {
     if (!std::isnan(due.due_tick)) {
-      const double ticks = due.due_tick - static_cast<double>(tick_);
+      const double ticks = due.due_tick - static_cast<double>(tick_ + missed);
       due.move.time_s = tgr::HandMove::kOnArrival;
       due.move.delay_s = 1e-9 * tick_ns_ * std::max(ticks, 0.0);
     }

@@ -79,6 +79,12 @@ class CombinedDriver final : public Driver {
     return flags;
   }
 
+  ERGOTIC_REALTIME void skipTicks(std::int64_t ticks) noexcept override {
+    for (const auto& driver : drivers_) {
+      driver->skipTicks(ticks);
+    }
+  }
+
   void makeSafe() noexcept override {
     for (const auto& driver : drivers_) {
       driver->makeSafe();

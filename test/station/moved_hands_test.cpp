@@ -134,9 +134,13 @@ TEST(MovedHandsTest, TargetsOf125HzLeaveNoLineInTheSoundOfAString) {
   EXPECT_GT(of_stairs, of_even + 6.0) << "a staircase is louder";
 }
 
+constexpr std::int64_t kNever = -1;
+constexpr std::int64_t kStalledTicks = 4;
+constexpr double kSensorM = 1e-5;  // its noise and its step
+
 /// Where a slice was, tick by tick, if a stroke that is due at some tick was asked for before
-/// `tick`.
-std::vector<double> struck(double due_tick, std::int64_t tick) {
+/// `tick`. \param stalled  the first of four ticks that did not run in time
+std::vector<double> struck(double due_tick, std::int64_t tick, std::int64_t stalled = kNever) {
   constexpr std::int64_t kTicks = 400;
   const std::unique_ptr<Station> station = makeStation();
   tgr::HandMove stroke;
@@ -152,7 +156,11 @@ std::vector<double> struck(double due_tick, std::int64_t tick) {
     if (station->nextTick() == tick) {
       EXPECT_TRUE(station->move(stroke, due_tick));
     }
-    station->cycle({0, true});
+    if (station->nextTick() == stalled) {
+      station->catchUp(kStalledTicks, 1'000'000);
+    } else {
+      station->cycle({0, true});
+    }
   }
   std::vector<GestureTick> ticks(kTicks);
   EXPECT_EQ(station->pollGestures(ticks.data(), ticks.size()), ticks.size());
@@ -173,6 +181,26 @@ TEST(MovedHandsTest, AMoveThatIsDueAtATickDoesNotDependOnWhenItWasAskedFor) {
   EXPECT_NE(struck(kDueTick, 205), early) << "this one comes too late";
   EXPECT_EQ(struck(100.0, 205), struck(205.0, 205)) << "and is due at once";
   EXPECT_NE(struck(kDueTick + 0.2, 120), early);
+}
+
+/// All but the ticks that are caught up, on whose way the slice is where nobody saw it.
+void expectAsWithoutTheStall(const std::vector<double>& with,
+                             const std::vector<double>& without,
+                             std::size_t stalled) {
+  for (std::size_t i = 0; i < without.size(); ++i) {
+    if (i < stalled || i >= stalled + kStalledTicks - 1) {
+      EXPECT_NEAR(with[i], without[i], kSensorM) << i;
+    }
+  }
+}
+
+TEST(MovedHandsTest, AMoveIsInTimeThoughTicksWereMissed) {
+  constexpr double kDueTick = 200.37;
+  const std::vector<double> whole = struck(kDueTick, 120);
+  expectAsWithoutTheStall(struck(kDueTick, 120, 150), whole, 150);  // between order and stroke
+  expectAsWithoutTheStall(struck(kDueTick, 195, 195), whole, 195);  // the order waits for it
+  expectAsWithoutTheStall(struck(kDueTick, 120, 199), whole, 199);  // over its beginning
+  expectAsWithoutTheStall(struck(kDueTick, 120, 230), whole, 230);  // on its way
 }
 
 TEST(MovedHandsTest, RefusesHandsThatAreNotThere) {

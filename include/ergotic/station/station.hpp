@@ -191,7 +191,7 @@ class Station {
   };
 
   // One tick, step by step (station.cpp).
-  void moveHands() noexcept;
+  void moveHands(std::int64_t missed) noexcept;
   std::uint32_t accept(Slices& positions,
                        std::uint32_t exchange_flags,
                        std::int64_t host_missed) noexcept;

@@ -106,6 +106,11 @@ class Driver {
   /// Realtime: yes. Thread: tick
   virtual std::uint32_t exchange(const double* forces, double* positions) noexcept = 0;
 
+  /// So many ticks were missed since the last exchange. A simulated device moves on by them,
+  /// without force, so that its gesture and its hands keep time; a real one has done so by itself.
+  /// Realtime: yes. Thread: tick
+  virtual void skipTicks(std::int64_t /*ticks*/) noexcept {}
+
   /// Zero force now and from now on: later exchanges send zero until `rearm`. Idempotent, from any
   /// thread or a signal's helper thread, also while exchange runs; takes at most one tick.
   virtual void makeSafe() noexcept = 0;

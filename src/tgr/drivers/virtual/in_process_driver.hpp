@@ -12,7 +12,8 @@
 
 namespace ergotic::tgr {
 
-/// A virtual device that lives in the driver and moves on by one tick per exchange.
+/// A virtual device that lives in the driver and moves on by one tick per exchange, and by those
+/// that were missed.
 ///
 /// As on a real device, the forces of an exchange act from there to the next one, so the positions
 /// that this exchange reads do not contain them yet. Same settings, file and forces: same bits.
@@ -25,6 +26,7 @@ class InProcessDriver final : public Driver {
   void close() noexcept override { open_ = false; }
   int slices() const noexcept override { return bank_.slices(); }
   std::uint32_t exchange(const double* forces, double* positions) noexcept override;
+  void skipTicks(std::int64_t ticks) noexcept override;
   void makeSafe() noexcept override { safe_ = true; }
   void rearm() noexcept override { safe_ = false; }
   int extraDelayTicks() const noexcept override { return queue_ticks_ + actuator_ticks_; }
@@ -40,6 +42,7 @@ class InProcessDriver final : public Driver {
  private:
   static constexpr std::size_t kPendingMoves = 256;
   using Forces = std::array<double, kMaxSlices>;
+  static constexpr Forces kNoForces{};
 
   void takeMoves() noexcept;
 

@@ -208,7 +208,7 @@ bool Station::move(const tgr::HandMove& move, double due_tick) noexcept {
 }
 
 /// A move that is due at a tick is so much later than the tick of this exchange, whenever it was
-/// asked for. \param missed  ticks before that one that are still to be caught up
+/// asked for. \param missed  ticks between the last one that ran and the tick of this exchange
 void Station::moveHands(std::int64_t missed) noexcept {
   DueMove due;
   for (std::size_t i = 0; i < kWaitingMoves && moves_.pop(due); ++i) {

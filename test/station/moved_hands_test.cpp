@@ -183,7 +183,7 @@ TEST(MovedHandsTest, AMoveThatIsDueAtATickDoesNotDependOnWhenItWasAskedFor) {
   EXPECT_NE(struck(kDueTick + 0.2, 120), early);
 }
 
-/// All but the ticks that are caught up, on whose way the slice is where nobody saw it.
+/// Compares all ticks but those that were caught up, whose positions are interpolated.
 void expectAsWithoutTheStall(const std::vector<double>& with,
                              const std::vector<double>& without,
                              std::size_t stalled) {

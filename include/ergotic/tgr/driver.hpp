@@ -106,8 +106,9 @@ class Driver {
   /// Realtime: yes. Thread: tick
   virtual std::uint32_t exchange(const double* forces, double* positions) noexcept = 0;
 
-  /// So many ticks were missed since the last exchange. A simulated device moves on by them,
-  /// without force, so that its gesture and its hands keep time; a real one has done so by itself.
+  /// So many ticks were missed since the last exchange and are caught up after the next one. A
+  /// simulated device moves on by them, without force, so that its gesture and its hands keep time;
+  /// a real one has done so by itself.
   /// Realtime: yes. Thread: tick
   virtual void skipTicks(std::int64_t /*ticks*/) noexcept {}
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iomanip>
 #include <limits>
 #include <sstream>
 
@@ -98,11 +99,11 @@ std::vector<std::string> AudioBridge::takeWarnings() {
   const std::lock_guard<std::mutex> lock(warnings_mutex_);
   if (const Loudness now = loudness(); now.limited_frames > 0 && !loudness_is_told_) {
     loudness_is_told_ = true;
+    const auto db = [](double amplitude) { return 20.0 * std::log10(amplitude); };
     std::ostringstream text;
-    text.precision(3);
-    text << "the sound went beyond full scale (" << now.peak
-         << " times so far) and is turned down by the limiter: play softer, or lower the gain of "
-            "the outputs";
+    text << std::fixed << std::setprecision(1) << std::showpos << "the sound came to "
+         << db(now.peak) << " dBFS so far; what is above " << db(Limiter::kCeiling)
+         << " dBFS is turned down by the limiter: play softer, or lower the gain of the outputs";
     warnings_.push_back(text.str());
   }
   std::vector<std::string> taken;

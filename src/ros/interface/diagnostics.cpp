@@ -123,7 +123,7 @@ void Diagnostics::reportSound(Report& report) {
   } else if (status_.underruns > last_.underruns || status_.xruns > last_.xruns) {
     report.summary(Level::WARN, "sound was interrupted in the last second");
   } else if (loudness_.limited_frames > limited_before_) {
-    report.summary(Level::WARN, "the sound is beyond full scale, and the limiter turns it down");
+    report.summary(Level::WARN, "the sound is too loud, and the limiter turns it down");
   } else if (status_.bad_input_samples > last_.bad_input_samples) {
     report.summary(Level::WARN, "an audio input gave samples that are no finite numbers");
   } else {

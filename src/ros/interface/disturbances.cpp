@@ -9,6 +9,9 @@ namespace ergotic::node {
 namespace {
 
 constexpr std::int64_t kMinuteNs = 60'000'000'000;
+constexpr std::int64_t kManyUnderruns = 10;  // in a minute
+constexpr const char* kAdvice =
+    "; close other programs, or start with a larger ring_depth, which scripts/station --tune finds";
 
 struct DisturbanceKind {
   std::uint8_t type;
@@ -34,6 +37,13 @@ bool Disturbances::isOne(const Event& event) {
 }
 
 bool Disturbances::isFirst(const Event& event) {
+  if (event.type == Event::UNDERRUN) {
+    const bool goes_on = event.frame == underrun_end_;
+    underrun_end_ = event.frame + event.index;
+    if (goes_on) {
+      return false;
+    }
+  }
   Count& count = counts_[kindOfDisturbance(event)];
   ++count.all;
   if (count.all > 1) {
@@ -51,15 +61,19 @@ std::string Disturbances::ofLastMinute(std::int64_t now_ns) {
   }
   minute_ns_ = now_ns;
   std::string text;
+  std::string advice;
   for (std::size_t kind = 0; kind < kKinds; ++kind) {
     Count& count = counts_[kind];
+    if (kDisturbances[kind].type == Event::UNDERRUN && count.all - count.told > kManyUnderruns) {
+      advice = kAdvice;
+    }
     if (count.all > count.told) {
       text += (text.empty() ? "in the last minute: " : ", ") +
               std::to_string(count.all - count.told) + " " + kDisturbances[kind].words;
     }
     count.told = count.all;
   }
-  return text;
+  return text + advice;
 }
 
 }  // namespace ergotic::node

@@ -16,11 +16,13 @@ class Disturbances {
  public:
   static bool isOne(const Event& event);
 
-  /// Counts it. \return whether it is the first of its kind. \pre isOne
+  /// Counts it; an underrun that goes on from one period to the next counts once, as in Status.
+  /// \return whether it is the first of its kind. \pre isOne
   bool isFirst(const Event& event);
 
-  /// "in the last minute: 12 late ticks, 3 stalls"; empty before a minute is over, and if there was
-  /// nothing but what was reported. \param now_ns  of CLOCK_MONOTONIC
+  /// "in the last minute: 12 late ticks, 3 stalls", with advice if the sound was often interrupted;
+  /// empty before a minute is over, and if there was nothing but what was reported. \param now_ns
+  /// of CLOCK_MONOTONIC
   std::string ofLastMinute(std::int64_t now_ns);
 
  private:
@@ -31,7 +33,8 @@ class Disturbances {
   static constexpr std::size_t kKinds = 4;
 
   std::array<Count, kKinds> counts_;
-  std::int64_t minute_ns_ = 0;  // when the present one began; 0: none yet
+  std::int64_t minute_ns_ = 0;      // when the present one began; 0: none yet
+  std::int64_t underrun_end_ = -1;  // frame after the last that was missing
 };
 
 }  // namespace ergotic::node

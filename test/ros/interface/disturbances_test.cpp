@@ -41,5 +41,34 @@ TEST(DisturbancesTest, AreToldOnceOfEachKindAndThenCountedOnceAMinute) {
   EXPECT_EQ(disturbances.ofLastMinute(181 * kSecondNs), "") << "nothing happened";
 }
 
+/// So many frames are missing from one on.
+Event underrun(std::int64_t frame, std::int64_t frames) {
+  Event event = eventOf(Event::UNDERRUN);
+  event.frame = frame;
+  event.index = frames;
+  return event;
+}
+
+TEST(DisturbancesTest, AnUnderrunThatGoesOnCountsOnce) {
+  Disturbances disturbances;
+  EXPECT_EQ(disturbances.ofLastMinute(kSecondNs), "");
+  EXPECT_TRUE(disturbances.isFirst(underrun(0, 10)));
+  EXPECT_FALSE(disturbances.isFirst(underrun(10, 256))) << "goes on";
+  EXPECT_FALSE(disturbances.isFirst(underrun(266, 256))) << "goes on";
+  EXPECT_FALSE(disturbances.isFirst(underrun(1000, 1)));
+  EXPECT_EQ(disturbances.ofLastMinute(61 * kSecondNs),
+            "in the last minute: 1 underruns of the sound");
+}
+
+TEST(DisturbancesTest, SayWhatHelpsWhereTheSoundIsOftenInterrupted) {
+  Disturbances disturbances;
+  EXPECT_EQ(disturbances.ofLastMinute(kSecondNs), "");
+  for (int n = 0; n < 12; ++n) {
+    disturbances.isFirst(underrun(1000 * n, 1));
+  }
+  EXPECT_THAT(disturbances.ofLastMinute(61 * kSecondNs),
+              ::testing::HasSubstr("11 underruns of the sound; close other"));
+}
+
 }  // namespace
 }  // namespace ergotic::node

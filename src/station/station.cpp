@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "ergotic/exception.hpp"
@@ -15,6 +16,7 @@ constexpr double kSwapFadeS = 0.005;
 constexpr std::int64_t kLookInsideTicks = 50;  // a replay must look at the same ticks
 constexpr double kMaxOfModel = 1e9;  // N, or full scales: a model that gives more has blown up
 constexpr std::size_t kMaxKeyframeParameters = 1U << 12U;
+constexpr std::int64_t kWhenever = std::numeric_limits<std::int64_t>::max();
 
 /// False for what is not a number, too.
 bool isWithinSanityLimit(double value) noexcept {
@@ -147,7 +149,7 @@ void Station::cycle(const Timing& timing) noexcept {
   heartbeat_.fetch_add(1, std::memory_order_relaxed);
   const std::int64_t begin = rt::monotonicNs();
   followInterlock();
-  moveHands(0);
+  moveHands(0, kWhenever);
   Slices positions{};
   const std::uint32_t met = driver_->exchange(force_.data(), positions.data());
   const std::int64_t exchanged = rt::monotonicNs();
@@ -162,38 +164,67 @@ void Station::catchUp(std::int64_t ticks, std::int64_t stall_ns) noexcept {
   }
   heartbeat_.fetch_add(1, std::memory_order_relaxed);
   const std::int64_t run = std::min(ticks, max_catch_up_);
-  driver_->skipTicks(run - 1);
-  moveHands(ticks - 1);
+  const double stall_s = 1e-9 * static_cast<double>(stall_ns);
+  if (meter_ != nullptr) {
+    meter_->wake_up.add(stall_ns);
+  }
+  if (driver_->isSteppedByExchange()) {
+    noteStall(run, ticks - run, stall_s);
+    runWithExchanges(run);
+    return;
+  }
+  moveHands(ticks - 1, kWhenever);
   force_.fill(0.0);
   Slices target{};
   const std::uint32_t met = driver_->exchange(force_.data(), target.data());
   const std::uint32_t flags = accept(target, met, ticks - 1) | GestureTick::kCatchUp;
+  noteStall(run, ticks - run, stall_s);
+  runInterpolated(run, target, flags);
+}
+
+/// \param run  ticks that are caught up \param lost  those before them, which are not
+void Station::noteStall(std::int64_t run, std::int64_t lost, double stall_s) noexcept {
   Event stalled = event(Event::Type::kStall);
   stalled.index = run;
-  stalled.value = 1e-9 * static_cast<double>(stall_ns);
+  stalled.value = stall_s;
   tell(stalled);
-  if (meter_ != nullptr) {
-    meter_->wake_up.add(stall_ns);
-  }
   ++counters_.stalls;
   counters_.catch_up_ticks += run;
-  if (run < ticks) {
-    Event lost = event(Event::Type::kTicksLost);
-    lost.index = ticks - run;
-    tell(lost);
-    counters_.lost_ticks += ticks - run;
-    skip(ticks - run);
+  if (lost > 0) {
+    Event told = event(Event::Type::kTicksLost);
+    told.index = lost;
+    tell(told);
+    counters_.lost_ticks += lost;
+    skip(lost);
     if (!interlock_->read().isLatched()) {
-      stall_s_ = stalled.value;
+      stall_s_ = stall_s;
       stalls_borne_ = 0;
     }
     fault(FaultReason::kStall, -1);
   }
-  kick(stalled.value);
+  kick(stall_s);
+}
+
+/// A device that is stepped by its exchanges has stood still with the ticks. Each tick hears of the
+/// moves that were asked for before its time.
+void Station::runWithExchanges(std::int64_t ticks) noexcept {
+  const std::int64_t now_ns = rt::monotonicNs();
+  for (std::int64_t left = ticks - 1; left >= 0; --left) {
+    moveHands(0, now_ns - static_cast<std::int64_t>(static_cast<double>(left) * tick_ns_));
+    Slices positions{};
+    const std::uint32_t met = driver_->exchange(force_.data(), positions.data());
+    const std::uint32_t flags = accept(positions, met, 0);
+    runTick(positions, flags);
+  }
+}
+
+void Station::runInterpolated(std::int64_t ticks,
+                              const Slices& target,
+                              std::uint32_t flags) noexcept {
   chain_.resume();
   const Slices origin = position_;
-  for (std::int64_t i = 1; i < run; ++i) {
-    const double part = static_cast<double>(i) / static_cast<double>(run);
+  for (std::int64_t i = 1; i < ticks; ++i) {
+    const double part = static_cast<double>(i) / static_cast<double>(ticks);
     Slices between{};
     for (std::size_t s = 0; s < static_cast<std::size_t>(slices_); ++s) {
       between[s] = origin[s] + part * (target[s] - origin[s]);
@@ -204,20 +235,28 @@ void Station::catchUp(std::int64_t ticks, std::int64_t stall_ns) noexcept {
 }
 
 bool Station::move(const tgr::HandMove& move, double due_tick) noexcept {
-  return move.isValid(slices_) && driver_->hasHand(move.slice) && moves_.push({move, due_tick});
+  return move.isValid(slices_) && driver_->hasHand(move.slice) &&
+         moves_.push({move, due_tick, rt::monotonicNs()});
 }
 
 /// A move that is due at a tick is so much later than the tick of this exchange, whenever it was
 /// asked for. \param missed  ticks between the last one that ran and the tick of this exchange
-void Station::moveHands(std::int64_t missed) noexcept {
-  DueMove due;
-  for (std::size_t i = 0; i < kWaitingMoves && moves_.pop(due); ++i) {
-    if (!std::isnan(due.due_tick)) {
-      const double ticks = due.due_tick - static_cast<double>(tick_ + missed);
-      due.move.time_s = tgr::HandMove::kOnArrival;
-      due.move.delay_s = 1e-9 * tick_ns_ * std::max(ticks, 0.0);
+/// \param asked_until_ns  moves that were asked for later wait for a later tick
+void Station::moveHands(std::int64_t missed, std::int64_t asked_until_ns) noexcept {
+  for (std::size_t i = 0; i < kWaitingMoves; ++i) {
+    const DueMove* next = moves_.front();
+    if (next == nullptr || next->asked_ns > asked_until_ns) {
+      return;
     }
-    driver_->move(due.move);
+    tgr::HandMove move = next->move;
+    if (!std::isnan(next->due_tick)) {
+      const double ticks = next->due_tick - static_cast<double>(tick_ + missed);
+      move.time_s = tgr::HandMove::kOnArrival;
+      move.delay_s = 1e-9 * tick_ns_ * std::max(ticks, 0.0);
+    }
+    driver_->move(move);
+    DueMove taken;
+    moves_.pop(taken);
   }
 }
 

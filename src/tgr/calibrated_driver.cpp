@@ -73,7 +73,7 @@ class CalibratedDriverOverRaw final : public CalibratedDriver {
   void close() noexcept override { raw_->close(); }
   void reconnect() override { raw_->reconnect(); }
   int slices() const noexcept override { return raw_->slices(); }
-  void skipTicks(std::int64_t ticks) noexcept override { raw_->skipTicks(ticks); }
+  bool isSteppedByExchange() const noexcept override { return raw_->isSteppedByExchange(); }
   void makeSafe() noexcept override { raw_->makeSafe(); }
   void makeSafeInTick() noexcept override { raw_->makeSafeInTick(); }
   void rearm() noexcept override { raw_->rearm(); }

@@ -79,10 +79,10 @@ class CombinedDriver final : public Driver {
     return flags;
   }
 
-  ERGOTIC_REALTIME void skipTicks(std::int64_t ticks) noexcept override {
-    for (const auto& driver : drivers_) {
-      driver->skipTicks(ticks);
-    }
+  bool isSteppedByExchange() const noexcept override {
+    return std::all_of(drivers_.begin(), drivers_.end(), [](const std::unique_ptr<Driver>& driver) {
+      return driver->isSteppedByExchange();
+    });
   }
 
   void makeSafe() noexcept override {

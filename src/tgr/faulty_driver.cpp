@@ -78,7 +78,7 @@ class FaultyDriverOverAnother final : public FaultyDriver {
     inside_->reconnect();
   }
   int slices() const noexcept override { return inside_->slices(); }
-  void skipTicks(std::int64_t ticks) noexcept override { inside_->skipTicks(ticks); }
+  bool isSteppedByExchange() const noexcept override { return inside_->isSteppedByExchange(); }
   void makeSafe() noexcept override { inside_->makeSafe(); }
   void makeSafeInTick() noexcept override { inside_->makeSafeInTick(); }
   void rearm() noexcept override { inside_->rearm(); }

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ergotic/station/timer_source.hpp"
 
+#include <array>
 #include <map>
 #include <thread>
 
 #include "ergotic/rt/clock.hpp"
 #include "ergotic/station/station.hpp"
+#include "ergotic/tgr/virtual_driver.hpp"
 #include "support/reference_threads.hpp"
 #include "support/station_doubles.hpp"
 #include "support/test.hpp"
@@ -250,6 +252,66 @@ TEST(CatchUpTest, ExchangesOnceWithZeroForce) {
   bench.station->catchUp(10, 3'000'000);
   EXPECT_EQ(bench.log.exchanges, kRampTicks + 1);
   EXPECT_EQ(bench.log.forces[0], 0.0);
+}
+
+/// Positions of each exchange.
+double ramp(std::int64_t exchange, int /*slice*/) {
+  return exchange < kRampTicks ? 0.01 : 0.01 + 0.0001 * static_cast<double>(exchange - kRampTicks);
+}
+
+TEST(CatchUpTest, RunsTheTicksOfASimulatedDeviceAsIfTheyHadBeenInTime) {
+  Bench in_time({}, ramp);
+  Bench late({}, ramp);
+  late.driver->stepped_by_exchange = true;
+  in_time.engage();
+  late.engage();
+  in_time.run(60);
+  late.run(20);
+  late.station->catchUp(10, 3'000'000);
+  late.run(30);
+  EXPECT_EQ(late.log.exchanges, in_time.log.exchanges);
+  const auto expected = in_time.recorded();
+  const auto ticks = late.recorded();
+  ASSERT_EQ(ticks.size(), expected.size());
+  for (std::size_t i = 0; i < ticks.size(); ++i) {
+    EXPECT_EQ(ticks[i].tick, expected[i].tick);
+    EXPECT_EQ(ticks[i].position[0], expected[i].position[0]) << i;
+    EXPECT_EQ(ticks[i].force[0], expected[i].force[0]) << i;
+    EXPECT_EQ(ticks[i].flags, expected[i].flags) << i;
+  }
+  EXPECT_EQ(test::count(late.events(), Event::Type::kStall), 1);
+}
+
+TEST(CatchUpTest, LosesTheOldestTicksOfASimulatedDeviceBeyondMaxStall) {
+  Bench bench({}, ramp);
+  bench.driver->stepped_by_exchange = true;
+  bench.engage();
+  const std::int64_t exchanges = bench.log.exchanges;
+  bench.station->catchUp(kMaxCaughtUp + 10, 53'000'000);
+  EXPECT_EQ(bench.log.exchanges, exchanges + kMaxCaughtUp);
+  EXPECT_EQ(bench.recorded().back().tick, kRampTicks + kMaxCaughtUp + 9);
+  EXPECT_TRUE(bench.log.safe) << "that is a fault";
+}
+
+TEST(CatchUpTest, PlaysAStrokeWholeThatWasAskedForAndOverDuringTheStall) {
+  constexpr std::int64_t kTicks = 315;  // 100 ms
+  Station station(longRecord(), tgr::makeVirtualDriver({}), test::makeSpring());
+  const std::int64_t begin_ns = rt::monotonicNs();
+  rt::sleepUntilNs(begin_ns + 20'000'000);
+  tgr::HandMove move;
+  move.grip = tgr::HandGrip::kKey;
+  move.glide_s = 0.015;
+  move.target_m = 0.01;
+  EXPECT_TRUE(station.move(move, 126.0));
+  move.target_m = 0.0;
+  EXPECT_TRUE(station.move(move, 220.0));
+  rt::sleepUntilNs(begin_ns + 100'000'000);
+  station.catchUp(kTicks, 100'000'000);
+  std::array<GestureTick, kTicks> ticks;
+  ASSERT_EQ(station.pollGestures(ticks.data(), ticks.size()), ticks.size());
+  EXPECT_NEAR(ticks[125].position[0], 0.0, 1e-4);
+  EXPECT_NEAR(ticks[215].position[0], 0.01, 1e-3);
+  EXPECT_NEAR(ticks[314].position[0], 0.0, 1e-3);
 }
 
 TEST(CatchUpTest, RampsForceInAgain) {

@@ -38,8 +38,10 @@ class ScriptedDriver : public tgr::Driver {
   void makeSafe() noexcept override { log_.safe.store(true); }
   void rearm() noexcept override { log_.safe.store(false); }
   std::uint64_t uncalibrated() const noexcept override { return uncalibrated_slices; }
+  bool isSteppedByExchange() const noexcept override { return stepped_by_exchange; }
 
   std::uint64_t uncalibrated_slices = 0;
+  bool stepped_by_exchange = false;
   Watch watch;                                          ///< may be empty
   std::function<std::uint32_t(std::int64_t)> flags_of;  ///< may be empty: kExchangeOk
 

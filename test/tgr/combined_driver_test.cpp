@@ -64,6 +64,15 @@ TEST_F(CombinedDriverTest, CanHurtIfAnyOfThemCan) {
   EXPECT_FALSE(makeVirtualDriver({})->canHurt()) << "it is simulated";
 }
 
+TEST_F(CombinedDriverTest, IsSteppedByExchangesIfAllOfThemAre) {
+  const auto driver = combined();
+  for (Script& script : scripts_) {
+    EXPECT_FALSE(driver->isSteppedByExchange());
+    script.is_stepped_by_exchange = true;
+  }
+  EXPECT_TRUE(driver->isSteppedByExchange());
+}
+
 TEST_F(CombinedDriverTest, MeetsWhatAnyOfThemMeets) {
   const auto driver = combined();
   driver->open(1000.0);

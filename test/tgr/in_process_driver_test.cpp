@@ -309,34 +309,11 @@ TEST(InProcessDriverTest, TellsHowLongItsGestureHasBeenPlayedAndWhatThatAsksOfTh
   }
 }
 
-TEST(InProcessDriverTest, MovesOnByTheTicksThatWereMissed) {
-  VirtualDriverConfig config = idealConfig();
-  InProcessDriver driver(config);
-  driver.open(1000.0);
-  std::array<double, kMaxSlices> forces{1.0};
-  std::array<double, kMaxSlices> positions{};
-  driver.exchange(forces.data(), positions.data());
-  driver.skipTicks(7);
-  EXPECT_NEAR(driver.gestureTime(), 0.001, 1e-12) << "said with the next exchange";
-  driver.exchange(forces.data(), positions.data());
-  EXPECT_NEAR(driver.gestureTime(), 0.009, 1e-12);
-}
-
-template <class Rig>
-void expectMissedTicksReachTheDevice() {
-  Rig rig;
-  rig.driver().open(1000.0);
-  std::array<double, kMaxSlices> forces{};
-  std::array<double, kMaxSlices> positions{};
-  rig.driver().skipTicks(7);
-  rig.driver().exchange(forces.data(), positions.data());
-  EXPECT_NEAR(rig.driver().gestureTime(), 0.008, 1e-12);
-}
-
-TEST(InProcessDriverTest, HearsOfMissedTicksThroughWhatStandsBeforeIt) {
-  expectMissedTicksReachTheDevice<test::FaultyRig>();
-  expectMissedTicksReachTheDevice<test::CalibratedRig>();
-  expectMissedTicksReachTheDevice<test::CombinedRig>();
+TEST(InProcessDriverTest, IsSteppedByExchangesWhateverStandsBeforeIt) {
+  EXPECT_TRUE(InProcessDriver(idealConfig()).isSteppedByExchange());
+  EXPECT_TRUE(test::FaultyRig().driver().isSteppedByExchange());
+  EXPECT_TRUE(test::CalibratedRig().driver().isSteppedByExchange());
+  EXPECT_TRUE(test::CombinedRig().driver().isSteppedByExchange());
 }
 
 }  // namespace

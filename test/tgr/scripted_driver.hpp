@@ -18,6 +18,7 @@ struct Script {
   int extra_delay_ticks = 0;
   double damping = 2.0;
   bool can_hurt = true;
+  bool is_stepped_by_exchange = false;
   std::uint64_t uncalibrated = 0;
   std::uint32_t flags = 0;
   std::array<double, tgr::kMaxSlices> positions{};
@@ -77,6 +78,7 @@ class ScriptedDevice final : public tgr::Driver, private tgr::DeviceClock {
   bool isRaw() const noexcept override { return script_.is_raw; }
   std::uint64_t uncalibrated() const noexcept override { return script_.uncalibrated; }
   bool canHurt() const noexcept override { return script_.can_hurt; }
+  bool isSteppedByExchange() const noexcept override { return script_.is_stepped_by_exchange; }
   double damping() const noexcept override { return script_.damping; }
   double declaredDamping() const noexcept override { return 0.1 * script_.damping; }
   tgr::DeviceClock* clock() noexcept override { return script_.has_clock ? this : nullptr; }

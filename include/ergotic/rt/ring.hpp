@@ -25,6 +25,10 @@ class Ring {
   /// \return items given out. Realtime: yes. Thread: reader
   std::size_t pop(T* items, std::size_t count) noexcept { return queue_.pop(items, count); }
   bool pop(T& item) noexcept { return queue_.pop(item); }
+  /// \return the item that `pop` gives next; null if there is none. Realtime: yes. Thread: reader
+  const T* front() const noexcept {
+    return queue_.read_available() > 0 ? &queue_.front() : nullptr;
+  }
 
   std::size_t readable() const noexcept { return queue_.read_available(); }   // Thread: reader
   std::size_t writable() const noexcept { return queue_.write_available(); }  // Thread: writer

@@ -93,7 +93,8 @@ class Station {
 
   /// Runs the `ticks` ticks that are due after a stall: one exchange with zero force, then the
   /// ticks with positions interpolated to the new sample, force muted, recorded as kCatchUp; the
-  /// force then ramps in again. Beyond max_stall: Fault kStall; the oldest ticks are lost
+  /// force then ramps in again. With a device that is stepped by its exchanges all of them run as
+  /// if they had been in time. Beyond max_stall: Fault kStall; the oldest ticks are lost
   /// (kTicksLost), so that the work is bounded by max_stall's worth of ticks. The model's time
   /// stands still over lost ticks; the tick index, and with it the station frame and the clock,
   /// does not. Realtime: yes. Thread: tick
@@ -188,10 +189,14 @@ class Station {
   struct DueMove {
     tgr::HandMove move;
     double due_tick = kAtOnce;
+    std::int64_t asked_ns = 0;  // of CLOCK_MONOTONIC
   };
 
   // One tick, step by step (station.cpp).
-  void moveHands(std::int64_t missed) noexcept;
+  void moveHands(std::int64_t missed, std::int64_t asked_until_ns) noexcept;
+  void noteStall(std::int64_t run, std::int64_t lost, double stall_s) noexcept;
+  void runWithExchanges(std::int64_t ticks) noexcept;
+  void runInterpolated(std::int64_t ticks, const Slices& target, std::uint32_t flags) noexcept;
   std::uint32_t accept(Slices& positions,
                        std::uint32_t exchange_flags,
                        std::int64_t host_missed) noexcept;

@@ -106,11 +106,11 @@ class Driver {
   /// Realtime: yes. Thread: tick
   virtual std::uint32_t exchange(const double* forces, double* positions) noexcept = 0;
 
-  /// So many ticks were missed since the last exchange and are caught up after the next one. A
-  /// simulated device moves on by them, without force, so that its gesture and its hands keep time;
-  /// a real one has done so by itself.
-  /// Realtime: yes. Thread: tick
-  virtual void skipTicks(std::int64_t /*ticks*/) noexcept {}
+  /// Whether all of the device is simulated and moves on by one tick with each exchange, whenever
+  /// that comes. The ticks that a stall has cost are then run one by one, with their exchanges and
+  /// their forces, as if they had been in time; a real device has moved on by itself meanwhile, and
+  /// is asked once. Constant. Realtime: yes. Thread: any
+  virtual bool isSteppedByExchange() const noexcept { return false; }
 
   /// Zero force now and from now on: later exchanges send zero until `rearm`. Idempotent, from any
   /// thread or a signal's helper thread, also while exchange runs; takes at most one tick.

@@ -120,7 +120,7 @@ void Diagnostics::reportSound(Report& report) {
     report.summary(Level::WARN, jack_->message);
   } else if (!jack_->running) {
     report.summary(Level::WARN, "no JACK server");
-  } else if (status_.underruns > last_.underruns || status_.xruns > last_.xruns) {
+  } else if (status_.underrun_frames > last_.underrun_frames || status_.xruns > last_.xruns) {
     report.summary(Level::WARN, "sound was interrupted in the last second");
   } else if (loudness_.limited_frames > limited_before_) {
     report.summary(Level::WARN, "the sound is too loud, and the limiter turns it down");

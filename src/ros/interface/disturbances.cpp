@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <iterator>
+#include <utility>
 
 namespace ergotic::node {
 namespace {
@@ -41,6 +42,7 @@ bool Disturbances::isFirst(const Event& event) {
     const bool goes_on = event.frame == underrun_end_;
     underrun_end_ = event.frame + event.index;
     if (goes_on) {
+      underrun_goes_on_ = true;
       return false;
     }
   }
@@ -60,12 +62,15 @@ std::string Disturbances::ofLastMinute(std::int64_t now_ns) {
     return "";
   }
   minute_ns_ = now_ns;
+  const bool went_on = std::exchange(underrun_goes_on_, false);
   std::string text;
   std::string advice;
   for (std::size_t kind = 0; kind < kKinds; ++kind) {
     Count& count = counts_[kind];
-    if (kDisturbances[kind].type == Event::UNDERRUN && count.all - count.told > kManyUnderruns) {
-      advice = kAdvice;
+    if (kDisturbances[kind].type == Event::UNDERRUN) {
+      const bool is_from_before = went_on && count.all == count.told;
+      count.all += is_from_before ? 1 : 0;
+      advice = is_from_before || count.all - count.told > kManyUnderruns ? kAdvice : "";
     }
     if (count.all > count.told) {
       text += (text.empty() ? "in the last minute: " : ", ") +

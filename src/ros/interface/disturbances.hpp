@@ -16,7 +16,8 @@ class Disturbances {
  public:
   static bool isOne(const Event& event);
 
-  /// Counts it; an underrun that goes on from one period to the next counts once, as in Status.
+  /// Counts it; an underrun that goes on from one period to the next counts once, as in Status, and
+  /// once more in each minute that it goes on.
   /// \return whether it is the first of its kind. \pre isOne
   bool isFirst(const Event& event);
 
@@ -35,6 +36,7 @@ class Disturbances {
   std::array<Count, kKinds> counts_;
   std::int64_t minute_ns_ = 0;      // when the present one began; 0: none yet
   std::int64_t underrun_end_ = -1;  // frame after the last that was missing
+  bool underrun_goes_on_ = false;   // since the last minute was told
 };
 
 }  // namespace ergotic::node

@@ -60,6 +60,23 @@ TEST(DisturbancesTest, AnUnderrunThatGoesOnCountsOnce) {
             "in the last minute: 1 underruns of the sound");
 }
 
+TEST(DisturbancesTest, AnUnderrunThatNeverEndsIsToldEveryMinuteWithWhatHelps) {
+  Disturbances disturbances;
+  EXPECT_EQ(disturbances.ofLastMinute(kSecondNs), "");
+  std::int64_t frame = 0;
+  const auto minute = [&](std::int64_t end_ns) {
+    for (int n = 0; n < 3; ++n) {
+      disturbances.isFirst(underrun(frame, 256));
+      frame += 256;
+    }
+    return disturbances.ofLastMinute(end_ns);
+  };
+  EXPECT_EQ(minute(61 * kSecondNs), "in the last minute: 1 underruns of the sound");
+  EXPECT_THAT(minute(121 * kSecondNs), ::testing::HasSubstr("1 underruns of the sound; close"));
+  EXPECT_THAT(minute(181 * kSecondNs), ::testing::HasSubstr("1 underruns of the sound; close"));
+  EXPECT_EQ(disturbances.ofLastMinute(241 * kSecondNs), "") << "it is over";
+}
+
 TEST(DisturbancesTest, SayWhatHelpsWhereTheSoundIsOftenInterrupted) {
   Disturbances disturbances;
   EXPECT_EQ(disturbances.ofLastMinute(kSecondNs), "");

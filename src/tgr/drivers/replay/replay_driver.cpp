@@ -22,6 +22,7 @@ class ReplayDriver final : public Driver {
   void open(double) override { open_ = true; }
   void close() noexcept override { open_ = false; }
   bool canHurt() const noexcept override { return false; }
+  bool isSteppedByExchange() const noexcept override { return true; }
   int slices() const noexcept override { return slices_; }
 
   ERGOTIC_REALTIME std::uint32_t exchange(const double*, double* positions) noexcept override {

@@ -54,12 +54,6 @@ ERGOTIC_REALTIME std::uint32_t InProcessDriver::exchange(const double* forces,
   return made_safe;
 }
 
-ERGOTIC_REALTIME void InProcessDriver::skipTicks(std::int64_t ticks) noexcept {
-  for (std::int64_t i = 0; open_ && i < ticks; ++i) {
-    bank_.step(kNoForces.data());
-  }
-}
-
 ERGOTIC_REALTIME void InProcessDriver::takeMoves() noexcept {
   HandMove move;
   for (std::size_t i = 0; i < kPendingMoves && moves_.pop(move); ++i) {

@@ -12,8 +12,7 @@
 
 namespace ergotic::tgr {
 
-/// A virtual device that lives in the driver and moves on by one tick per exchange, and by those
-/// that were missed.
+/// A virtual device that lives in the driver and moves on by one tick per exchange.
 ///
 /// As on a real device, the forces of an exchange act from there to the next one, so the positions
 /// that this exchange reads do not contain them yet. Same settings, file and forces: same bits.
@@ -26,12 +25,12 @@ class InProcessDriver final : public Driver {
   void close() noexcept override { open_ = false; }
   int slices() const noexcept override { return bank_.slices(); }
   std::uint32_t exchange(const double* forces, double* positions) noexcept override;
-  void skipTicks(std::int64_t ticks) noexcept override;
   void makeSafe() noexcept override { safe_ = true; }
   void rearm() noexcept override { safe_ = false; }
   int extraDelayTicks() const noexcept override { return queue_ticks_ + actuator_ticks_; }
   bool isRaw() const noexcept override { return bank_.isRaw(); }
   bool canHurt() const noexcept override { return false; }
+  bool isSteppedByExchange() const noexcept override { return true; }
   double damping() const noexcept override { return bank_.damping(); }
   double declaredDamping() const noexcept override { return damping(); }
   std::vector<GestureValue> gestureValues() const override { return values_; }
@@ -42,7 +41,6 @@ class InProcessDriver final : public Driver {
  private:
   static constexpr std::size_t kPendingMoves = 256;
   using Forces = std::array<double, kMaxSlices>;
-  static constexpr Forces kNoForces{};
 
   void takeMoves() noexcept;
 

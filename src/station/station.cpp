@@ -210,6 +210,7 @@ void Station::noteStall(std::int64_t run, std::int64_t lost, double stall_s) noe
 void Station::runWithExchanges(std::int64_t ticks) noexcept {
   const std::int64_t now_ns = rt::monotonicNs();
   for (std::int64_t left = ticks - 1; left >= 0; --left) {
+    followInterlock();
     moveHands(0, now_ns - static_cast<std::int64_t>(static_cast<double>(left) * tick_ns_));
     Slices positions{};
     const std::uint32_t met = driver_->exchange(force_.data(), positions.data());

@@ -45,6 +45,7 @@ bool Disturbances::isFirst(const Event& event) {
       underrun_goes_on_ = true;
       return false;
     }
+    underrun_began_ = true;
   }
   Count& count = counts_[kindOfDisturbance(event)];
   ++count.all;
@@ -62,13 +63,13 @@ std::string Disturbances::ofLastMinute(std::int64_t now_ns) {
     return "";
   }
   minute_ns_ = now_ns;
-  const bool went_on = std::exchange(underrun_goes_on_, false);
+  const bool began = std::exchange(underrun_began_, false);
+  const bool is_from_before = std::exchange(underrun_goes_on_, false) && !began;
   std::string text;
   std::string advice;
   for (std::size_t kind = 0; kind < kKinds; ++kind) {
     Count& count = counts_[kind];
     if (kDisturbances[kind].type == Event::UNDERRUN) {
-      const bool is_from_before = went_on && count.all == count.told;
       count.all += is_from_before ? 1 : 0;
       advice = is_from_before || count.all - count.told > kManyUnderruns ? kAdvice : "";
     }

@@ -36,7 +36,8 @@ class Disturbances {
   std::array<Count, kKinds> counts_;
   std::int64_t minute_ns_ = 0;      // when the present one began; 0: none yet
   std::int64_t underrun_end_ = -1;  // frame after the last that was missing
-  bool underrun_goes_on_ = false;   // since the last minute was told
+  bool underrun_goes_on_ = false;   // seen since the last minute was told
+  bool underrun_began_ = false;     // likewise
 };
 
 }  // namespace ergotic::node

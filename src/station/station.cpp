@@ -168,7 +168,7 @@ void Station::catchUp(std::int64_t ticks, std::int64_t stall_ns) noexcept {
   if (meter_ != nullptr) {
     meter_->wake_up.add(stall_ns);
   }
-  if (driver_->isSteppedByExchange()) {
+  if (driver_->isSteppedByExchange() && !driver_->canHurt()) {
     noteStall(run, ticks - run, stall_s);
     runWithExchanges(run);
     return;
@@ -242,15 +242,17 @@ bool Station::move(const tgr::HandMove& move, double due_tick) noexcept {
 
 /// A move that is due at a tick is so much later than the tick of this exchange, whenever it was
 /// asked for. \param missed  ticks between the last one that ran and the tick of this exchange
-/// \param asked_until_ns  moves that were asked for later wait for a later tick
+/// \param asked_until_ns  moves that are due at once wait for a later tick if they were asked for
+/// later
 void Station::moveHands(std::int64_t missed, std::int64_t asked_until_ns) noexcept {
   for (std::size_t i = 0; i < kWaitingMoves; ++i) {
     const DueMove* next = moves_.front();
-    if (next == nullptr || next->asked_ns > asked_until_ns) {
+    const bool is_due_at_a_tick = next != nullptr && !std::isnan(next->due_tick);
+    if (next == nullptr || (!is_due_at_a_tick && next->asked_ns > asked_until_ns)) {
       return;
     }
     tgr::HandMove move = next->move;
-    if (!std::isnan(next->due_tick)) {
+    if (is_due_at_a_tick) {
       const double ticks = next->due_tick - static_cast<double>(tick_ + missed);
       move.time_s = tgr::HandMove::kOnArrival;
       move.delay_s = 1e-9 * tick_ns_ * std::max(ticks, 0.0);

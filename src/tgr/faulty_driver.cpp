@@ -78,7 +78,11 @@ class FaultyDriverOverAnother final : public FaultyDriver {
     inside_->reconnect();
   }
   int slices() const noexcept override { return inside_->slices(); }
-  bool isSteppedByExchange() const noexcept override { return inside_->isSteppedByExchange(); }
+  /// A device that is slow is not asked for each tick that it has cost.
+  bool isSteppedByExchange() const noexcept override {
+    const bool is_slow = ticks_left_ > 0 && order_.kind == InjectedFault::kSlow;
+    return inside_->isSteppedByExchange() && !is_slow;
+  }
   void makeSafe() noexcept override { inside_->makeSafe(); }
   void makeSafeInTick() noexcept override { inside_->makeSafeInTick(); }
   void rearm() noexcept override { inside_->rearm(); }

@@ -187,6 +187,7 @@ TEST(MovedHandsTest, AStallOfTheStationChangesNothing) {
   const std::vector<double> whole = struck(kDueTick, 120);
   EXPECT_EQ(struck(kDueTick, 120, 150), whole) << "between order and stroke";
   EXPECT_EQ(struck(kDueTick, 195, 195), whole) << "the order waits for it";
+  EXPECT_EQ(struck(kDueTick, 199, 199), whole) << "it is asked for when its time is over";
   EXPECT_EQ(struck(kDueTick, 120, 199), whole) << "over its beginning";
   EXPECT_EQ(struck(kDueTick, 120, 230), whole) << "on its way";
 }

@@ -294,25 +294,56 @@ TEST(CatchUpTest, LosesTheOldestTicksOfASimulatedDeviceBeyondMaxStall) {
   EXPECT_EQ(test::count(bench.events(), Event::Type::kFault), 1);
 }
 
-TEST(CatchUpTest, PlaysAStrokeWholeThatWasAskedForAndOverDuringTheStall) {
+TEST(CatchUpTest, AMoveBelongsToTheTickInWhoseTimeItWasAskedFor) {
   constexpr std::int64_t kTicks = 315;  // 100 ms
   Station station(longRecord(), tgr::makeVirtualDriver({}), test::makeSpring());
   const std::int64_t begin_ns = rt::monotonicNs();
-  rt::sleepUntilNs(begin_ns + 20'000'000);
+  rt::sleepUntilNs(begin_ns + 50'000'000);
   tgr::HandMove move;
   move.grip = tgr::HandGrip::kKey;
   move.glide_s = 0.015;
   move.target_m = 0.01;
-  EXPECT_TRUE(station.move(move, 126.0));
-  move.target_m = 0.0;
-  EXPECT_TRUE(station.move(move, 220.0));
+  EXPECT_TRUE(station.move(move));
   rt::sleepUntilNs(begin_ns + 100'000'000);
   station.catchUp(kTicks, 100'000'000);
   std::array<GestureTick, kTicks> ticks;
   ASSERT_EQ(station.pollGestures(ticks.data(), ticks.size()), ticks.size());
-  EXPECT_NEAR(ticks[125].position[0], 0.0, 1e-4);
-  EXPECT_NEAR(ticks[215].position[0], 0.01, 1e-3);
-  EXPECT_NEAR(ticks[314].position[0], 0.0, 1e-3);
+  EXPECT_NEAR(ticks[100].position[0], 0.0, 1e-4);
+  EXPECT_NEAR(ticks[314].position[0], 0.01, 1e-3);
+}
+
+/// Latches the force within the third tick.
+class StopInTheThird : public FramePort {
+ public:
+  explicit StopInTheThird(Station& station) : station_(station) {}
+  void push(std::int64_t /*first*/, const float* /*frames*/, int /*nframes*/) noexcept override {
+    if (++ticks_ == 3) {
+      station_.makeSafe();
+    }
+  }
+  bool pull(std::int64_t /*first*/, float* /*frames*/, int /*nframes*/) noexcept override {
+    return false;
+  }
+
+ private:
+  Station& station_;
+  int ticks_ = 0;
+};
+
+TEST(CatchUpTest, AnEmergencyStopCountsBetweenTwoTicksOfASimulatedDevice) {
+  Bench bench;
+  bench.driver->stepped_by_exchange = true;
+  bench.engage();
+  std::vector<double> sent;
+  sent.reserve(10);
+  bench.driver->watch = [&](std::int64_t, const double* forces) { sent.push_back(forces[0]); };
+  StopInTheThird stop(*bench.station);
+  bench.station->setFramePort(&stop);
+  bench.station->catchUp(10, 3'000'000);
+  ASSERT_EQ(sent.size(), 10U);
+  for (std::size_t i = 0; i < sent.size(); ++i) {
+    EXPECT_EQ(sent[i], i < 3 ? -1.0 : 0.0) << i;
+  }
 }
 
 TEST(CatchUpTest, RampsForceInAgain) {

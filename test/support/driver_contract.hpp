@@ -178,6 +178,7 @@ TYPED_TEST_P(DriverContractTest, SaysTheSameOfItselfAsLongAsItIsOpen) {
            this->driver().isRaw() == is_raw && this->driver().clock() == clock;
   };
   EXPECT_TRUE(clock == nullptr || clock->periodS() > 0.0);
+  EXPECT_FALSE(this->driver().isSteppedByExchange() && this->driver().canHurt());
   EXPECT_TRUE(std::isfinite(damping));
   EXPECT_GE(damping, 0.0);
   if (this->slices_ < tgr::kMaxSlices) {

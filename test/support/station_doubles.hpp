@@ -39,6 +39,7 @@ class ScriptedDriver : public tgr::Driver {
   void rearm() noexcept override { log_.safe.store(false); }
   std::uint64_t uncalibrated() const noexcept override { return uncalibrated_slices; }
   bool isSteppedByExchange() const noexcept override { return stepped_by_exchange; }
+  bool canHurt() const noexcept override { return !stepped_by_exchange; }
 
   std::uint64_t uncalibrated_slices = 0;
   bool stepped_by_exchange = false;

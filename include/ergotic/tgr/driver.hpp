@@ -109,7 +109,7 @@ class Driver {
   /// Whether all of the device is simulated and moves on by one tick with each exchange, whenever
   /// that comes. The ticks that a stall has cost are then run one by one, with their exchanges and
   /// their forces, as if they had been in time; a real device has moved on by itself meanwhile, and
-  /// is asked once. Constant. Realtime: yes. Thread: any
+  /// is asked once. Never true where `canHurt` is. Realtime: yes. Thread: tick
   virtual bool isSteppedByExchange() const noexcept { return false; }
 
   /// Zero force now and from now on: later exchanges send zero until `rearm`. Idempotent, from any

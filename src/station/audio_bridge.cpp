@@ -102,7 +102,8 @@ std::vector<std::string> AudioBridge::takeWarnings() {
     const auto db = [](double amplitude) { return 20.0 * std::log10(amplitude); };
     std::ostringstream text;
     text << std::fixed << std::setprecision(1) << std::showpos << "the sound came to "
-         << db(now.peak) << " dBFS so far; what is above " << db(Limiter::kCeiling)
+         << db(static_cast<double>(now.peak)) << " dBFS so far; what is above "
+         << db(Limiter::kCeiling)
          << " dBFS is turned down by the limiter: play softer, or lower the gain of the outputs";
     warnings_.push_back(text.str());
   }

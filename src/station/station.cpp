@@ -247,8 +247,11 @@ bool Station::move(const tgr::HandMove& move, double due_tick) noexcept {
 void Station::moveHands(std::int64_t missed, std::int64_t asked_until_ns) noexcept {
   for (std::size_t i = 0; i < kWaitingMoves; ++i) {
     const DueMove* next = moves_.front();
-    const bool is_due_at_a_tick = next != nullptr && !std::isnan(next->due_tick);
-    if (next == nullptr || (!is_due_at_a_tick && next->asked_ns > asked_until_ns)) {
+    if (next == nullptr) {
+      return;
+    }
+    const bool is_due_at_a_tick = !std::isnan(next->due_tick);
+    if (!is_due_at_a_tick && next->asked_ns > asked_until_ns) {
       return;
     }
     tgr::HandMove move = next->move;

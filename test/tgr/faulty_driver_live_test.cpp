@@ -38,6 +38,18 @@ class FaultyDriverTest : public ::testing::Test {
   std::array<double, 3> true_{};
 };
 
+/// Else each tick that a slow exchange has cost would cost as much again.
+TEST_F(FaultyDriverTest, IsNotSteppedByExchangesWhileItIsSlow) {
+  EXPECT_FALSE(driver_->isSteppedByExchange());
+  script_.is_stepped_by_exchange = true;
+  EXPECT_TRUE(driver_->isSteppedByExchange());
+  inject(InjectedFault::kSlow, 0, 2, 1e-6);
+  exchange(0.0);
+  EXPECT_FALSE(driver_->isSteppedByExchange());
+  exchange(0.0);
+  EXPECT_TRUE(driver_->isSteppedByExchange());
+}
+
 TEST_F(FaultyDriverTest, IsTheDeviceInsideWithoutOrders) {
   script_.flags = kMissingSample;
   script_.extra_delay_ticks = 4;

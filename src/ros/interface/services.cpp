@@ -129,8 +129,10 @@ Services::Services(const ::ros::NodeHandle& node, CommandThread& command_thread)
                             ::ros::TransportHints().tcpNoDelay()),
       node_.subscribe("volume", 1, &Services::onVolume, this),
       node_.subscribe("end_effectors", 1, &Services::onEndEffectors, this),
-      safety_node_.subscribe("emergency_stop", 1, &Services::onEmergencyTopic, this),
-      safety_node_.subscribe("presence", kRequestQueue, &Services::onPresence, this),
+      safety_node_.subscribe("emergency_stop", 1, &Services::onEmergencyTopic, this,
+                             ::ros::TransportHints().tcpNoDelay()),
+      safety_node_.subscribe("presence", kRequestQueue, &Services::onPresence, this,
+                             ::ros::TransportHints().tcpNoDelay()),
   };
   constexpr bool kOnce = true;
   first_load_ = loading_node_.createWallTimer(

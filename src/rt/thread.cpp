@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ergotic/rt/thread.hpp"
 
+#include <dlfcn.h>
 #include <malloc.h>
 #include <pthread.h>
 
@@ -78,12 +79,22 @@ Outcome lockMemory() {
   return is_locked ? Outcome{} : notLocked();
 }
 
+void trimHeap() {
+  using Collect = void (*)(bool force);
+  static const auto collect = reinterpret_cast<Collect>(::dlsym(RTLD_DEFAULT, "mi_collect"));
+  if (collect != nullptr) {
+    collect(true);
+  } else {
+    malloc_trim(0);
+  }
+}
+
 Outcome giveMemoryBack() {
   const bool locked = is_locked;
   if (locked) {
     munlockall();
   }
-  malloc_trim(0);
+  trimHeap();
   // Not MCL_CURRENT alone, which would make resident again what was just given back.
   is_locked = locked && mlockall(MCL_CURRENT | MCL_ONFAULT) == 0 && mlockall(MCL_FUTURE) == 0;
   return is_locked == locked ? Outcome{} : notLocked();

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ergotic/station/performer.hpp"
 
-#include <malloc.h>
-
 #include <memory>
 #include <utility>
 
 #include "ergotic/exception.hpp"
 #include "ergotic/physics/certificate/precision.hpp"
 #include "ergotic/physics/settling/settle.hpp"
+#include "ergotic/rt/thread.hpp"
 #include "ergotic/scene/scene.hpp"
 #include "ergotic/station/measure_load.hpp"
 
@@ -132,7 +131,7 @@ std::unique_ptr<Performer> makePerformer(scene::Scene scene,
   warn(performer->instrument->notes());
   performer->certificate = std::move(certificate);
   performer->allow_unproven = policy.allow_unproven || policy.allow_unstable;
-  malloc_trim(0);  // reading leaves many times what stays, and locked memory would keep it all
+  rt::trimHeap();  // reading leaves many times what stays, and locked memory would keep it all
   warm(*performer);
   if (policy.max_load > 0.0) {
     tell("measure");

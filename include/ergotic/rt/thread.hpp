@@ -16,8 +16,14 @@ struct Outcome {
 /// Realtime: no. Thread: any
 Outcome lockMemory();
 
-/// Gives back to the system what was freed, which takes milliseconds: what allocates elsewhere
-/// waits as long. Locked pages would stay. Afterwards memory is locked as it was, but for this:
+/// Gives back to the system what the heap holds free, by the allocator that this process has: that
+/// of the C library, or mimalloc where it is preloaded. With the former, which takes milliseconds,
+/// all threads that allocate or free wait as long; with the latter nobody does.
+/// Realtime: no. Thread: the one that freed most of it
+void trimHeap();
+
+/// Gives back to the system what was freed, as `trimHeap` does, though memory is locked: locked
+/// pages would stay. Afterwards memory is locked as it was, but for this:
 /// where memory of the heap was given back, its pages are resident only from their first use on.
 /// Realtime: no. Thread: any, one at a time
 /// \return not ok if what was locked no longer is

@@ -5,7 +5,6 @@
 #include <malloc.h>
 #include <pthread.h>
 
-#include <atomic>
 #include <cerrno>
 #include <cstdint>
 #include <cstring>
@@ -32,7 +31,6 @@ constexpr const char* kLimitsHelp =
 // Initial-exec: it is there with the thread. What a library that is loaded later has else, would be
 // allocated when a tick first looks at it.
 [[gnu::tls_model("initial-exec")]] thread_local int own_priority = 0;
-std::atomic<bool> is_locked{false};
 
 Outcome notLocked() {
   return {false, std::string("memory is not locked: mlockall: ") + std::strerror(errno)};
@@ -75,8 +73,7 @@ Outcome lockMemory() {
             << " kB, needed: unlimited. Page faults can make ticks late; " << kLimitsHelp;
     return {false, message.str()};
   }
-  is_locked = mlockall(MCL_CURRENT | MCL_FUTURE) == 0;
-  return is_locked ? Outcome{} : notLocked();
+  return mlockall(MCL_CURRENT | MCL_FUTURE) == 0 ? Outcome{} : notLocked();
 }
 
 void trimHeap() {
@@ -87,17 +84,6 @@ void trimHeap() {
   } else {
     malloc_trim(0);
   }
-}
-
-Outcome giveMemoryBack() {
-  const bool locked = is_locked;
-  if (locked) {
-    munlockall();
-  }
-  trimHeap();
-  // Not MCL_CURRENT alone, which would make resident again what was just given back.
-  is_locked = locked && mlockall(MCL_CURRENT | MCL_ONFAULT) == 0 && mlockall(MCL_FUTURE) == 0;
-  return is_locked == locked ? Outcome{} : notLocked();
 }
 
 Outcome makeRealtime(int priority) {

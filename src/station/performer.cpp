@@ -7,7 +7,6 @@
 #include "ergotic/exception.hpp"
 #include "ergotic/physics/certificate/precision.hpp"
 #include "ergotic/physics/settling/settle.hpp"
-#include "ergotic/rt/thread.hpp"
 #include "ergotic/scene/scene.hpp"
 #include "ergotic/station/measure_load.hpp"
 
@@ -131,7 +130,6 @@ std::unique_ptr<Performer> makePerformer(scene::Scene scene,
   warn(performer->instrument->notes());
   performer->certificate = std::move(certificate);
   performer->allow_unproven = policy.allow_unproven || policy.allow_unstable;
-  rt::trimHeap();  // reading leaves many times what stays, and locked memory would keep it all
   warm(*performer);
   if (policy.max_load > 0.0) {
     tell("measure");

@@ -12,7 +12,6 @@
 #include <sys/resource.h>
 #include <sys/wait.h>
 
-#include "support/alloc_count.hpp"
 #include "support/test.hpp"
 
 namespace ergotic::rt {
@@ -108,54 +107,6 @@ TEST(MakeRealtimeTest, EitherGivesThePriorityOrAReason) {
 
 TEST(LockMemoryTest, SaysWhatToDoWhereItIsNotPermitted) {
   EXPECT_EQ(asUnprivileged([] { return explains(lockMemory(), "ulimit -l") ? 7 : 8; }), 7);
-}
-
-/// kB, as the system tells it: `VmRSS`, `VmLck`.
-long kbOf(const std::string& name) {
-  std::ifstream status("/proc/self/status");
-  std::string line;
-  while (std::getline(status, line)) {
-    if (line.rfind(name + ":", 0) == 0) {
-      return std::stol(line.substr(name.size() + 1));
-    }
-  }
-  return 0;
-}
-
-/// In a thread, whose heap is another than that of `main`; what is kept lies behind what is freed.
-long freedButResidentKb() {
-  long resident_kb = 0;
-  std::thread([&] {
-    std::vector<std::string> texts;
-    for (int i = 0; i < 200'000; ++i) {
-      texts.emplace_back(1000, 'x');
-    }
-    static const std::string kept = texts.back();
-    resident_kb = kbOf("VmRSS");
-  }).join();
-  return resident_kb;
-}
-
-TEST(GiveMemoryBackTest, FreesLockedPagesAndLeavesTheRestLocked) {
-  if (!test::AllocationScope::isAvailable()) {
-    GTEST_SKIP() << "the sanitizer has its own heap";
-  }
-  const pid_t child = fork();
-  if (child == 0) {
-    const bool locked = lockMemory().ok;
-    const long used_kb = freedButResidentKb();
-    const bool ok = giveMemoryBack().ok;
-    const long left_kb = kbOf("VmRSS");
-    std::vector<char> next(10'000'000);
-    std::printf("%ld kB of %ld are left\n", left_kb, used_kb);
-    _exit(ok && used_kb > 200'000 && left_kb < used_kb - 150'000 &&
-                  (!locked || kbOf("VmLck") > 10'000)
-              ? 0
-              : 1);
-  }
-  int status = 0;
-  waitpid(child, &status, 0);
-  EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0);
 }
 
 TEST(PrefaultStackTest, MakesItsBytesOfStackResident) {

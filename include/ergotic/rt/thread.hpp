@@ -17,17 +17,10 @@ struct Outcome {
 Outcome lockMemory();
 
 /// Gives back to the system what the heap holds free, by the allocator that this process has: that
-/// of the C library, or mimalloc where it is preloaded. With the former, which takes milliseconds,
-/// all threads that allocate or free wait as long; with the latter nobody does.
+/// of the C library, or mimalloc where it is preloaded. The former takes milliseconds for which all
+/// threads that allocate or free wait, and cannot give back pages that are locked.
 /// Realtime: no. Thread: the one that freed most of it
 void trimHeap();
-
-/// Gives back to the system what was freed, as `trimHeap` does, though memory is locked: locked
-/// pages would stay. Afterwards memory is locked as it was, but for this:
-/// where memory of the heap was given back, its pages are resident only from their first use on.
-/// Realtime: no. Thread: any, one at a time
-/// \return not ok if what was locked no longer is
-Outcome giveMemoryBack();
 
 /// Gives the calling thread SCHED_FIFO at `priority` (1...99).
 /// Realtime: no

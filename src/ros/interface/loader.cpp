@@ -109,10 +109,7 @@ LoadModel::Response Loader::load(const Wish& wish) {
     ROS_ERROR_STREAM(answer.message);
     command_thread_.tell(answer.message);
   }
-  // A text takes far more memory while it is read than what plays does.
-  if (const rt::Outcome kept = rt::giveMemoryBack(); !kept.ok) {
-    ROS_WARN_STREAM(kept.message);
-  }
+  rt::trimHeap();  // a text takes far more memory while it is read than what plays does
   response.success = answer.ok ? 1U : 0U;
   response.message = answer.message;
   return response;

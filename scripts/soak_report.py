@@ -90,14 +90,26 @@ def judge_stops(verdict, forces, journal, pauses):
                   f"no tick run; {excused} excused by pauses of the machine; late: {', '.join(late) or 'none'}")
 
 
-def judge_force(verdict, forces, sent, tick_rate):
-    """`sent` [ticks][slices]: what the station sent, N, tick by tick."""
+def in_runs(blocks):
+    """What the station sent, N: arrays [ticks][slices] without a gap, of gesture blocks that may lack some."""
+    runs, next_tick = [], None
+    for block in blocks:
+        sent = np.reshape(block.forces, (block.ticks, block.slices))
+        if block.first_tick != next_tick:
+            runs.append([])
+        runs[-1].append(sent)
+        next_tick = block.first_tick + block.ticks
+    return [np.concatenate(run) for run in runs]
+
+
+def judge_force(verdict, forces, runs, tick_rate):
+    """`runs`, arrays [ticks][slices]: what the station sent, N, tick by tick."""
     verdict.check("force stays within its limit", forces.peak() <= FORCE_LIMIT_N + 1e-6,
                   f"{forces.peak():.2f} N of {FORCE_LIMIT_N:g} N")
     step = SLEW_N_S / tick_rate
-    largest = growth_of(sent[:-1], sent[1:]).max(initial=0.0)
+    largest = max(growth_of(sent[:-1], sent[1:]).max(initial=0.0) for sent in runs)
     verdict.check("force grows as slowly as it must", largest <= step + 1e-5,
-                  f"by {largest:.4f} N from tick to tick of {len(sent)}, {step:.4f} N are allowed")
+                  f"by {largest:.4f} N from tick to tick of {sum(map(len, runs))} in {len(runs)} runs, {step:.4f} N are allowed")
     # A device that comes late meets several ticks at once.
     print(f"      the device met a growth of {forces.growth():.2f} N at once at most")
 
@@ -151,8 +163,7 @@ def main():
     forces = Forces(options.folder / "forces.csv")
     with rosbag.Bag(str(options.folder / "soak.bag")) as bag:
         statuses = [message for _, message, _ in bag.read_messages(["/station/status"])]
-        sent = np.concatenate([np.reshape(message.forces, (message.ticks, message.slices)) for _, message, _ in
-                               bag.read_messages(["/station/gesture"])])
+        runs = in_runs(message for _, message, _ in bag.read_messages(["/station/gesture"]))
 
     verdict = Verdict()
     counts = collections.Counter(line["what"] for line in journal)
@@ -165,7 +176,7 @@ def main():
     seconds = judge_process(verdict, looks)
     verdict.check("the station lives to the end", seconds > 60.0 * options.minutes - 5.0, f"{seconds:.0f} s")
     judge_stops(verdict, forces, journal, pauses)
-    judge_force(verdict, forces, sent, statuses[-1].gestural_rate)
+    judge_force(verdict, forces, runs, statuses[-1].gestural_rate)
     judge_sound(verdict, sorted(options.folder.glob("sound_*.wav")))
     tell_counters(statuses)
     print(f"      pauses of the machine: {len(pauses)}, longest "

@@ -8,6 +8,7 @@ import pathlib
 import sys
 import tempfile
 import unittest
+from types import SimpleNamespace
 
 import numpy as np
 
@@ -86,10 +87,20 @@ class OthersTest(unittest.TestCase):
     def test_force_keeps_its_limit_and_its_slew(self):
         felt = forces((1, 0, 20.0))
         sent = np.array([[1.58 * n, 0.0] for n in range(12)] + [[0.0, -1.58]])
-        self.assertTrue(passes(soak_report.judge_force, felt, sent, TICK_RATE))
-        self.assertFalse(passes(soak_report.judge_force, forces((1, 0, 20.1)), sent, TICK_RATE))
+        self.assertTrue(passes(soak_report.judge_force, felt, [sent], TICK_RATE))
+        self.assertFalse(passes(soak_report.judge_force, forces((1, 0, 20.1)), [sent], TICK_RATE))
         for late in ([0.0, -3.2], [1.6, -1.58], [0.0, 1.6]):
-            self.assertFalse(passes(soak_report.judge_force, felt, np.append(sent, [late], axis=0), TICK_RATE))
+            self.assertFalse(passes(soak_report.judge_force, felt, [np.append(sent, [late], axis=0)], TICK_RATE))
+
+    def test_ticks_that_were_not_recorded_are_no_growth(self):
+        def block(first, *sent):
+            return SimpleNamespace(first_tick=first, ticks=len(sent), slices=1, forces=np.array(sent))
+        blocks = [block(7, 0.0, 1.5), block(9, 3.0), block(20, 15.0, 16.0)]
+        runs = soak_report.in_runs(blocks)
+        self.assertEqual([run.ravel().tolist() for run in runs], [[0.0, 1.5, 3.0], [15.0, 16.0]])
+        self.assertTrue(passes(soak_report.judge_force, forces((1, 0, 16.0)), runs, TICK_RATE))
+        self.assertFalse(passes(soak_report.judge_force, forces((1, 0, 16.0)),
+                                soak_report.in_runs([*blocks, block(22, 18.0)]), TICK_RATE))
 
     def test_a_process_must_not_grow(self):
         def looks(**last):

@@ -6,12 +6,16 @@
 
 #include <cfloat>
 #include <cstring>
+#include <fstream>
 #include <future>
+#include <string>
 #include <thread>
+#include <vector>
 
 #include <sys/resource.h>
 #include <sys/wait.h>
 
+#include "support/alloc_count.hpp"
 #include "support/test.hpp"
 
 namespace ergotic::rt {
@@ -107,6 +111,43 @@ TEST(MakeRealtimeTest, EitherGivesThePriorityOrAReason) {
 
 TEST(LockMemoryTest, SaysWhatToDoWhereItIsNotPermitted) {
   EXPECT_EQ(asUnprivileged([] { return explains(lockMemory(), "ulimit -l") ? 7 : 8; }), 7);
+}
+
+long residentKb() {
+  std::ifstream status("/proc/self/status");
+  std::string line;
+  while (std::getline(status, line)) {
+    if (line.rfind("VmRSS:", 0) == 0) {
+      return std::stol(line.substr(6));
+    }
+  }
+  return 0;
+}
+
+/// In a thread, whose heap is another than that of `main`; what is kept lies behind what is freed.
+long freedButResidentKb() {
+  long resident_kb = 0;
+  std::thread([&] {
+    std::vector<std::string> texts;
+    for (int i = 0; i < 200'000; ++i) {
+      texts.emplace_back(1000, 'x');
+    }
+    static const std::string kept = texts.back();
+    resident_kb = residentKb();
+  }).join();
+  return resident_kb;
+}
+
+// This program counts calls of the heap of the C library, so mimalloc cannot take its place here.
+TEST(TrimHeapTest, GivesBackWhatIsFree) {
+  if (!test::AllocationScope::isAvailable()) {
+    GTEST_SKIP() << "the sanitizer has its own heap";
+  }
+  const long used_kb = freedButResidentKb();
+  const long freed_kb = residentKb();
+  trimHeap();
+  EXPECT_GT(freed_kb, used_kb - 20'000) << "it is given back by itself: the test shows nothing";
+  EXPECT_LT(residentKb(), used_kb - 150'000);
 }
 
 TEST(PrefaultStackTest, MakesItsBytesOfStackResident) {

@@ -38,9 +38,10 @@ try_space() { # NAME SETUP
   station=$spawned
   plays() { timeout 10 rostopic echo -n 1 /station/gesture/first_tick; }
   wait_until 40 plays || die "$name: the station does not tick"
+  local maps
   maps="/proc/$(rosnode info /station | sed -n 's/^Pid: *//p')/maps"
   grep -q libergotic_priority_inheritance "$maps" || die "$name: the locks of the station do not inherit priority"
-  grep -q libmimalloc "$maps" || die "$name: threads of the station wait for each other's memory"
+  grep -q libmimalloc "$maps" || die "$name: the station does not use mimalloc"
   sleep 2
   stop_group "$recorder" 20
   stop_group "$station" 25

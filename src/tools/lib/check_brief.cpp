@@ -81,10 +81,13 @@ std::string pitchesIn(const Json& report) {
   if (all.empty()) {
     return "--modes tells at what it sounds";
   }
-  return listOf(all, [](const Json& body) {
-    const double hz = body["pitch_hz"].get<double>();
-    return body["name"].get<std::string>() + " " + digits(hz) + " Hz (" + noteOf(hz) + ")";
-  });
+  return listOf(all,
+                [](const Json& body) {
+                  const double hz = body["pitch_hz"].get<double>();
+                  return body["name"].get<std::string>() + " " + digits(hz) + " Hz (" + noteOf(hz) +
+                         ")";
+                }) +
+         "; --modes tells all of the scene as a whole";
 }
 
 /// Lists the rendered stiffness of each port, and its passivity limit.

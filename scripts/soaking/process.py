@@ -21,11 +21,12 @@ def look(pid):
 
 
 def watch(pid, path, end):
-    """Writes a look each second until `end` (time.monotonic, s), or until the process is gone."""
+    """Writes a look each second until `end` (time.monotonic, s), or until the process is gone and when that was seen."""
     with open(path, "w", encoding="utf-8") as file:
         while time.monotonic() < end:
             try:
                 file.write(json.dumps(look(pid)) + "\n")
             except (FileNotFoundError, ProcessLookupError):
+                file.write(json.dumps({"gone_ns": time.monotonic_ns()}) + "\n")
                 return
             time.sleep(PERIOD_S)

@@ -107,6 +107,7 @@ class OthersTest(unittest.TestCase):
             calm = {"memory": 4e8, "descriptors": 90, "threads": 20, "cpu_s": 0.0}
             return [{"time_ns": n, **calm, **(last if n > 90 else {})} for n in range(100)]
         self.assertTrue(passes(soak_report.judge_process, looks()))
+        self.assertFalse(passes(soak_report.judge_process, [*looks(), {"gone_ns": 101}]))
         for name, much in (("memory", 5e8), ("descriptors", 99), ("threads", 23)):
             self.assertFalse(passes(soak_report.judge_process, looks(**{name: much})), name)
 

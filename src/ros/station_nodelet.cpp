@@ -4,7 +4,6 @@
 #include <nodelet/nodelet.h>
 #include <pluginlib/class_list_macros.hpp>
 #include <ros/callback_queue.h>
-#include <ros/spinner.h>
 
 #include "ros/device/own_host.hpp"
 #include "ros/device/parameters.hpp"
@@ -13,6 +12,7 @@
 #include "ros/interface/console.hpp"
 #include "ros/interface/diagnostics.hpp"
 #include "ros/interface/parameter_watch.hpp"
+#include "ros/interface/polling_spinner.hpp"
 #include "ros/interface/publishers.hpp"
 #include "ros/interface/services.hpp"
 
@@ -60,7 +60,7 @@ class StationNodelet : public nodelet::Nodelet {
   const std::shared_ptr<Console> console_ = Console::ofThisProcess();  // of all that follows
   // Not the queues of nodelet: who is unloaded during a call from these is destroyed after them.
   ::ros::CallbackQueue calls_;
-  ::ros::AsyncSpinner spinner_{0, &calls_};  // a thread per processor
+  PollingSpinner spinner_{calls_};
   std::unique_ptr<Diagnostics> diagnostics_;
   std::unique_ptr<Publishers> publishers_;
   std::unique_ptr<OwnHost> own_host_;

@@ -13,8 +13,8 @@ namespace ergotic::rt {
 /// emptied by what the thread uses while it is urgent. So within any time T that is `kShare` T +
 /// `kBurstNs` of processor time at most, and what it used between two questions; and a burst, such
 /// as all that is sent when another model takes over, does not cost it its priority. Between two
-/// questions no more than `kBurstNs` counts: where its host stops a virtual machine, that often
-/// looks like use. Thread: one
+/// questions no more than `kBurstNs` counts, for where its host stops a virtual machine, that often
+/// looks like use: who keeps the thread from asking for longer than that gets more. Thread: one
 class Urgency {
  public:
   static constexpr double kShare = 0.25;                 ///< permitted share of a processor
